@@ -1,0 +1,1 @@
+"""Site files, supervision and access control."""

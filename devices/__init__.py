@@ -1,0 +1,1 @@
+"""Everything that senses or moves, one folder per kind of device."""

@@ -1,0 +1,1 @@
+"""Fixed cameras: pictures in, observations and an event log out."""

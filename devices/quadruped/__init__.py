@@ -1,0 +1,1 @@
+"""Quadrupeds: skills over a velocity driver and a gripper."""

@@ -1,0 +1,1 @@
+"""The coordination hub: one world state, plans, dispatch, monitoring."""

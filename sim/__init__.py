@@ -1,0 +1,1 @@
+"""The simulated building: a drop-in for the drivers of real hardware."""

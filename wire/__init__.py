@@ -1,0 +1,1 @@
+"""The contract: every message, key, frame and clock that the processes share."""

@@ -1,0 +1,1 @@
+"""Every message, one module per topic family."""

@@ -1,0 +1,34 @@
+"""The mesh's time, and the health of its processes."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from wire.model import Id, Message, Stamp, Text
+
+
+class Tick(Message):
+    """One step of simulated time. In lockstep the owner waits for a `TickDone` of every follower."""
+
+    tick: int = Field(ge=0)
+    now_s: Stamp
+    step_s: float = Field(gt=0.0)
+
+
+class TickDone(Message):
+    """A follower has handled everything that reached it before this tick and has published its answers."""
+
+    tick: int = Field(ge=0)
+    follower: Id
+
+
+class Health(Message):
+    """Two a second, sent by the deciding loop itself, so that a hung loop is noticed."""
+
+    process: Id
+    boot_id: str
+    seq: int = Field(ge=0)
+    stamp_s: Stamp
+    loop_age_ms: float = Field(ge=0.0)
+    mode: Literal["starting", "ready", "busy", "holding", "stopping"]
+    note: Text = ""

@@ -1,0 +1,46 @@
+"""Goals: what should be true when a task is done. Predicates over the world, never steps."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from wire.model import Id, Message, Word
+
+Predicate = Literal[
+    "in",  # subject rests in or on object (a receptacle)
+    "at",  # subject is in the room or, for a robot, near the object
+    "open",
+    "closed",
+    "on",
+    "off",
+    "clean",
+    "sliced",
+    "found",  # subject's place is known from a look in this task
+    "visited",  # a robot has been in the room / beside the object
+]
+
+
+class Selector(Message):
+    """Which things are meant: by type, optionally in a room, in or on a receptacle, or one thing by its id."""
+
+    type: Word | None = None
+    id: Id | None = None
+    room: Id | None = None
+    inside: Word | None = None
+    """Only those in or on a receptacle of this type."""
+    count: int | None = Field(default=1, ge=1)
+    """How many; None means every one there is."""
+    exclude: tuple["Selector", ...] = ()
+
+
+class Goal(Message):
+    """`predicate(subject[, object])`; `negated` asks that it be false at the end."""
+
+    predicate: Predicate
+    subject: Selector
+    object: Selector | None = None
+    negated: bool = False
+    after: tuple[int, ...] = ()
+    """Indices of goals in the same list that must be reached first."""
+    text: str = Field(default="", max_length=300)
+    """The words of the instruction that this came from."""

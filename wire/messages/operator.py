@@ -1,0 +1,92 @@
+"""What people ask of the hub."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from wire.messages.goal import Goal
+from wire.messages.plan import Refusal
+from wire.messages.world import ObjectState
+from wire.model import Id, Message, Probability, Stamp, Text
+
+TaskStatus = Literal["planning", "running", "paused", "done", "failed", "refused", "cancelled"]
+
+
+class TaskRequest(Message):
+    """An instruction in plain words. The same `task` id again returns the state of the first one."""
+
+    task: Id
+    instruction: str = Field(min_length=1, max_length=2000)
+
+
+class GoalState(Message):
+    goal: Goal
+    holds: bool
+    note: Text = ""
+
+
+class TaskState(Message):
+    """How a task stands; published on every change, and the answer to most operator requests."""
+
+    task: Id
+    instruction: Text
+    status: TaskStatus
+    stamp_s: Stamp
+    started_s: Stamp
+    planner: str = ""
+    goals: tuple[GoalState, ...] = ()
+    refusal: Refusal | None = None
+    reason: Text = ""
+    nodes_done: int = Field(default=0, ge=0)
+    nodes_total: int = Field(default=0, ge=0)
+    replans: int = Field(default=0, ge=0)
+    fails: int = Field(default=0, ge=0)
+    action_steps: int = Field(default=0, ge=0)
+    path_m: float = Field(default=0.0, ge=0.0)
+    prompt_tokens: int = Field(default=0, ge=0)
+    completion_tokens: int = Field(default=0, ge=0)
+    log: tuple[Text, ...] = ()
+    """The last few things that happened, newest last."""
+
+
+class TaskQuery(Message):
+    """One task, or the newest when None."""
+
+    task: Id | None = None
+
+
+class ControlRequest(Message):
+    """`stop` halts every robot and cancels all tasks; `pause` and `resume` keep the tasks."""
+
+    verb: Literal["stop", "pause", "resume", "cancel"]
+    task: Id | None = None
+
+
+class ControlReply(Message):
+    ok: bool
+    text: Text
+
+
+class WhyRequest(Message):
+    """Where is it believed to be, who said so? By id, or by words ("mug", "mug in the kitchen")."""
+
+    object: str = Field(min_length=1, max_length=120)
+
+
+class Claim(Message):
+    source: Id
+    stamp_s: Stamp
+    confidence: Probability
+    text: Text
+    contradicts: bool = False
+
+
+class WhyEntry(Message):
+    state: ObjectState
+    claims: tuple[Claim, ...]
+
+
+class WhyReply(Message):
+    now_s: Stamp
+    entries: tuple[WhyEntry, ...] = ()
+    text: Text = ""

@@ -1,0 +1,101 @@
+"""Plans as dependency graphs: equations 6 and 7 of the first paper."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from wire.messages.goal import Goal
+from wire.messages.world import WorldState
+from wire.model import Id, Message, Stamp, Text, Vec2, Word
+
+Action = Literal[
+    "goto", "explore", "inspect", "pickup", "put", "open", "close", "toggle_on", "toggle_off", "slice", "clean"
+]
+NodeStatus = Literal["pending", "running", "done", "failed", "cancelled"]
+
+
+class PlanNode(Message):
+    """v = (a, params, req_skills, r_pref), and the nodes it waits for."""
+
+    id: Id
+    action: Action
+    object: Id | None = None
+    """The object acted on; for `put` the receptacle; for `goto` optional."""
+    item: Id | None = None
+    """For `put`: the object in hand."""
+    room: Id | None = None
+    """For `explore` and `goto`."""
+    point_m: Vec2 | None = None
+    looking_for: tuple[Word, ...] = ()
+    """For `explore`: types whose sighting ends the search."""
+    req_skills: tuple[Word, ...] = ()
+    preferred_robot: Id | None = None
+    same_robot_as: Id | None = None
+    """The node whose robot must do this one too (a `put` after its `pickup`)."""
+    after: tuple[Id, ...] = ()
+    goal: int | None = None
+    """Index of the goal it serves."""
+
+
+class Plan(Message):
+    """Pi = (V, E): the edges are the nodes' `after`."""
+
+    id: Id
+    task: Id
+    planner: Word
+    goals: tuple[Goal, ...]
+    nodes: tuple[PlanNode, ...] = Field(max_length=512)
+    complete: bool = True
+    """False when the plan only gathers what is missing (a search) and planning goes on after it."""
+    prompt_tokens: int = Field(default=0, ge=0)
+    completion_tokens: int = Field(default=0, ge=0)
+
+
+class Refusal(Message):
+    """Why nothing is done, in one sentence, and the words of the instruction at fault."""
+
+    reason: Text
+    part: Text = ""
+    question: bool = False
+    """True when an answer of the operator would settle it."""
+
+
+class PlanRequest(Message):
+    """P(T, W_t): the task, the world, and what went wrong before."""
+
+    task: Id
+    epoch: int = Field(ge=0)
+    instruction: Text
+    goals: tuple[Goal, ...] | None = None
+    """Goals settled by an earlier reply for the same task: plan for these, do not read the words again."""
+    world: WorldState
+    failures: tuple[Text, ...] = ()
+    now_s: Stamp
+
+
+class PlanReply(Message):
+    """Exactly one of plan and refusal. A plan without nodes says: all goals already hold."""
+
+    task: Id
+    epoch: int = Field(ge=0)
+    plan: Plan | None = None
+    refusal: Refusal | None = None
+
+
+class NodeState(Message):
+    id: Id
+    status: NodeStatus
+    robot: Id | None = None
+    reason: Text = ""
+    started_s: Stamp | None = None
+    ended_s: Stamp | None = None
+
+
+class PlanState(Message):
+    """The running plan, for views: published when a node changes."""
+
+    task: Id
+    stamp_s: Stamp
+    plan: Plan
+    nodes: tuple[NodeState, ...]
+    replans: int = Field(ge=0)

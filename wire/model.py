@@ -1,0 +1,26 @@
+"""What every message on the wire has in common: frozen, strict, no unknown fields, finite numbers."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+Id = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,31}$")]
+"""An identifier that is also one chunk of a key expression: no wildcard, no slash."""
+
+Word = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
+"""An entry of a closed vocabulary: an object type, a property, an action."""
+
+Text = Annotated[str, StringConstraints(max_length=2000)]
+"""Free text for people. Never an instruction to a program."""
+
+Vec2 = tuple[float, float]
+Vec3 = tuple[float, float, float]
+Probability = Annotated[float, Field(ge=0.0, le=1.0)]
+Stamp = Annotated[float, Field(ge=0.0)]
+"""Seconds on the mesh's clock (simulated or wall)."""
+
+
+class Message(BaseModel):
+    """A value on the wire. Validation is strict: no coercion of strings to numbers, no extra fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)

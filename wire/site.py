@@ -1,0 +1,158 @@
+"""The site file (TOML): what the owner knows of the building and what runs where. Frozen models, no unknown fields."""
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, ValidationError
+
+from wire.model import Id, Message, Vec2, Vec3, Word
+
+
+class SiteError(ValueError):
+    """The site file is wrong; the text names the place and the remedy."""
+
+
+class Room(Message):
+    id: Id
+    name: str
+    kind: Literal["Kitchen", "LivingRoom", "Bedroom", "Bathroom", "Other"]
+    polygon_m: tuple[Vec2, ...] = Field(min_length=3)
+
+
+class Wall(Message):
+    start_m: Vec2
+    end_m: Vec2
+    thickness_m: float = Field(default=0.1, gt=0.0)
+
+
+class Door(Message):
+    """A gap between two rooms; start and end are its jambs."""
+
+    id: Id
+    rooms: tuple[Id, Id]
+    start_m: Vec2
+    end_m: Vec2
+
+
+class Camera(Message):
+    """A fixed camera with its calibration. `source`: `mesh` for frames on the mesh, else a URL, a path or a number."""
+
+    id: Id
+    room: Id | None = None
+    position_enu_m: Vec3
+    yaw_deg: float
+    tilt_down_deg: float
+    width_px: int = Field(gt=0)
+    height_px: int = Field(gt=0)
+    focal_px: float = Field(gt=0.0)
+    source: str = "mesh"
+    picture_hz: float = Field(default=2.0, gt=0.0, le=60.0)
+
+
+class Robot(Message):
+    id: Id
+    kind: Literal["quadruped"]
+    start_m: Vec2
+    start_yaw_deg: float = 0.0
+    lost_hub_s: float = Field(default=2.0, gt=0.0)
+    """Stand still after this long without the hub."""
+
+
+class Process(Message):
+    """One process of the mesh: `python -m <module> --site FILE --id <id>`."""
+
+    id: Id
+    role: Literal["router", "hub", "planner", "cctv", "robot", "sim", "view"]
+    module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$")
+    host: str = "localhost"
+    args: tuple[str, ...] = ()
+    autostart: bool = True
+
+
+class Router(Message):
+    endpoint: str = Field(default="tcp/127.0.0.1:7447", pattern=r"^tcp/[^/]+:\d+$")
+    secured: bool = True
+
+
+class Clock(Message):
+    """`wall`: real time. `lockstep`: the simulator owns time and waits for its followers, as fast as they are."""
+
+    mode: Literal["wall", "lockstep"] = "lockstep"
+    step_s: float = Field(default=0.05, gt=0.0, le=1.0)
+    speed: float = Field(default=0.0, ge=0.0)
+    """Upper bound on simulated seconds per second; 0 is none."""
+
+
+class Fault(Message):
+    """Something the simulator does wrong on purpose to a camera, an appliance or a robot."""
+
+    device: Id
+    kind: Literal["frame_loss", "delay", "wrong_state"]
+    probability: Annotated[float, Field(ge=0.0, le=1.0)] = 1.0
+    delay_s: float = Field(default=0.0, ge=0.0)
+    prop: Word | None = None
+
+
+class Sim(Message):
+    """The simulated building behind the drivers. Only the simulator reads this table."""
+
+    scene: Literal["home"] = "home"
+    seed: int = Field(ge=0)
+    smart_appliances: bool = False
+    legs: bool = False
+    renderer: Literal["auto", "gl", "bullet"] = "auto"
+    fault: tuple[Fault, ...] = ()
+
+
+class PlannerChoice(Message):
+    name: Word = "scripted"
+
+
+class Hub(Message):
+    max_fails: int = Field(default=5, ge=1)
+    """MAX_FAILS of Algorithm 1."""
+
+
+class Site(Message):
+    name: str
+    realm: Id = "r2x"
+    router: Router = Router()
+    clock: Clock = Clock()
+    hub: Hub = Hub()
+    planner: PlannerChoice = PlannerChoice()
+    room: tuple[Room, ...]
+    wall: tuple[Wall, ...] = ()
+    door: tuple[Door, ...] = ()
+    camera: tuple[Camera, ...] = ()
+    robot: tuple[Robot, ...] = ()
+    process: tuple[Process, ...]
+    sim: Sim | None = None
+
+
+def load_site(path: Path) -> Site:
+    """Read and check a site file. Raises SiteError with one sentence per fault."""
+    try:
+        data = tomllib.loads(path.read_text())
+    except FileNotFoundError:
+        raise SiteError(f"{path}: no such site file; `justw sites` lists the ones there are") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SiteError(f"{path}: not valid TOML: {error}") from None
+    return parse_site(data, str(path))
+
+
+def parse_site(data: dict[str, Any], where: str) -> Site:
+    try:
+        return Site.model_validate(_tuples(data))
+    except ValidationError as error:
+        faults = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
+        raise SiteError(f"{where}: {faults}") from None
+
+
+def _tuples(value: Any) -> Any:
+    """TOML arrays as tuples, which is what strict models take."""
+    if isinstance(value, list):
+        return tuple(_tuples(v) for v in value)
+    if isinstance(value, dict):
+        return {k: _tuples(v) for k, v in value.items()}
+    return value

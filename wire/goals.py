@@ -1,4 +1,4 @@
-"""Does a goal hold? One reading of the predicates, used by the hub on what is believed and by the evaluator on truth."""
+"""Does a goal hold? One reading of the predicates, on what the hub believes and on what is true."""
 
 from wire.messages.goal import Goal, Selector
 from wire.messages.world import ObjectState, WorldState

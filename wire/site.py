@@ -109,6 +109,15 @@ class PlannerChoice(Message):
     name: Word = "scripted"
 
 
+class View(Message):
+    """The Rerun process: where live viewers connect, and a file that takes everything when one is named."""
+
+    grpc_port: int = Field(default=9876, gt=0, lt=65536)
+    web_port: int = Field(default=9090, gt=0, lt=65536)
+    memory_limit: str = Field(default="256MiB", pattern=r"^\d+(KiB|MiB|GiB)$")
+    save: str = ""
+
+
 class Hub(Message):
     max_fails: int = Field(default=5, ge=1)
     """MAX_FAILS of Algorithm 1."""
@@ -121,6 +130,7 @@ class Site(Message):
     clock: Clock = Clock()
     hub: Hub = Hub()
     planner: PlannerChoice = PlannerChoice()
+    view: View = View()
     room: tuple[Room, ...]
     wall: tuple[Wall, ...] = ()
     door: tuple[Door, ...] = ()

@@ -1,0 +1,158 @@
+"""Runs a site's processes on this machine under supervision: start, stop, status, restart, logs.
+
+The supervisor is `supervisord`, its configuration rendered from the site file's process table. Every process asks the
+kernel to be stopped when its parent dies (`wire.process`), so that a killed supervisor leaves no orphans.
+"""
+
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import xmlrpc.client
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from supervisor.xmlrpc import SupervisorTransport
+
+from deploy.supervisord import Places, render
+from wire.site import Site
+
+UP_STATES = ("STARTING", "RUNNING", "BACKOFF")
+
+
+class LaunchError(RuntimeError):
+    """The mesh cannot be started, reached or stopped; one sentence with the remedy."""
+
+
+@dataclass(frozen=True)
+class ProcessInfo:
+    """What the supervisor knows of one process."""
+
+    id: str
+    state: str
+    pid: int
+    up_s: float
+    exit_code: int
+    text: str
+
+
+class Mesh:
+    """The supervised processes of one site, found again through their run directory."""
+
+    def __init__(self, run_dir: Path) -> None:
+        self.run_dir = run_dir.resolve()
+        # A unix socket's path is limited to 107 bytes; the run directory may lie deep.
+        name = hashlib.sha256(str(self.run_dir).encode()).hexdigest()[:12]
+        self._socket_dir = Path(tempfile.gettempdir()) / f"r2x-{os.getuid()}-{name}"
+
+    @property
+    def site_file(self) -> Path:
+        return self.run_dir / "site.toml"
+
+    @property
+    def log_dir(self) -> Path:
+        return self.run_dir / "log"
+
+    @property
+    def credentials_dir(self) -> Path:
+        return self.run_dir / "credentials"
+
+    @property
+    def _socket(self) -> Path:
+        return self._socket_dir / "supervisor.sock"
+
+    def start(self, site: Site) -> None:
+        """Start every `autostart` process of the site whose host is this one."""
+        if self.is_up():
+            raise LaunchError(f"a mesh already runs from {self.run_dir}; `justw down` stops it")
+        self.log_dir.mkdir(parents=True, exist_ok=True)
+        self._socket_dir.mkdir(mode=0o700, exist_ok=True)
+        self._socket.unlink(missing_ok=True)
+        config = self.run_dir / "supervisord.conf"
+        config.write_text(
+            render(
+                site, self.site_file, self.run_dir, self._socket, sys.executable, self.credentials_dir, overrides or {}
+            )
+        )
+        done = subprocess.run(
+            [sys.executable, "-m", "supervisor.supervisord", "-c", str(config)],
+            capture_output=True, text=True, check=False, env={**os.environ, "PYTHONWARNINGS": "ignore"},
+        )  # fmt: skip
+        if done.returncode != 0:
+            raise LaunchError(f"the supervisor did not start: {(done.stderr or done.stdout).strip()[-300:]}")
+        self._wait_for_supervisor()
+
+    def _wait_for_supervisor(self, limit_s: float = 10.0) -> None:
+        deadline = time.monotonic() + limit_s
+        while not self.is_up():
+            if time.monotonic() > deadline:
+                raise LaunchError(f"the supervisor did not answer within {limit_s:.0f} s; see {self.run_dir}")
+            time.sleep(0.05)
+
+    def is_up(self) -> bool:
+        if not self._socket.exists():
+            return False
+        try:
+            return bool(self._rpc().supervisor.getState()["statename"] == "RUNNING")
+        except (OSError, xmlrpc.client.Error):
+            return False
+
+    def processes(self) -> list[ProcessInfo]:
+        rows: Any = self._call("getAllProcessInfo")
+        return [
+            ProcessInfo(
+                id=row["name"], state=row["statename"], pid=row["pid"],
+                up_s=float(row["now"] - row["start"]) if row["statename"] == "RUNNING" else 0.0,
+                exit_code=row["exitstatus"], text=row["description"] or row["spawnerr"],
+            )
+            for row in rows
+        ]  # fmt: skip
+
+    def restart(self, name: str) -> None:
+        self._known(name)
+        if self._state(name) in UP_STATES:
+            self._call("stopProcess", name, True)
+        self._call("startProcess", name, True)
+
+    def stop_process(self, name: str) -> None:
+        self._known(name)
+        self._call("stopProcess", name, True)
+
+    def stop(self, limit_s: float = 20.0) -> list[ProcessInfo]:
+        """Stop everything, the supervisor last; returns how each process ended."""
+        self._call("stopAllProcesses", True)
+        ended = self.processes()
+        self._call("shutdown")
+        deadline = time.monotonic() + limit_s
+        while self.is_up() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        return ended
+
+    def _state(self, name: str) -> str:
+        row: Any = self._call("getProcessInfo", name)
+        return str(row["statename"])
+
+    def _known(self, name: str) -> None:
+        names = [p.id for p in self.processes()]
+        if name not in names:
+            raise LaunchError(f"no process '{name}' in this mesh; there are: {', '.join(sorted(names))}")
+
+    def _rpc(self) -> Any:
+        transport = SupervisorTransport(None, None, f"unix://{self._socket}")
+        return xmlrpc.client.ServerProxy("http://127.0.0.1", transport=transport)
+
+    def _call(self, method: str, *args: object) -> object:
+        if not self._socket.exists():
+            raise LaunchError(f"no mesh runs from {self.run_dir}; `justw up` starts one")
+        try:
+            result: object = getattr(self._rpc().supervisor, method)(*args)
+        except xmlrpc.client.Fault as fault:
+            raise LaunchError(
+                f"the supervisor refused {method} {' '.join(map(str, args))}: {fault.faultString}"
+            ) from None
+        except OSError:
+            raise LaunchError(f"no mesh runs from {self.run_dir} any more; `justw up` starts one") from None
+        return result

@@ -1,0 +1,135 @@
+# R2X: a building's cameras, drones and ground robots as one team. `./justw` lists what there is.
+
+set positional-arguments
+set quiet
+
+python := justfile_directory() / ".venv/bin/python"
+export PYTHONPATH := justfile_directory()
+export PYTHONDONTWRITEBYTECODE := "1"
+
+[private]
+default:
+    just --list --unsorted
+
+# everything from nothing: install, bring the mesh up, do one instruction, write out/demo/ (--seed N, --json, --keep)
+[group('start here')]
+demo *args: install
+    {{ python }} -m console demo "$@"
+
+# lint, types, import rules and all tests
+[group('start here')]
+test *args: install
+    {{ python }} -m ruff check .
+    {{ python }} -m ruff format --check .
+    {{ python }} -m mypy
+    .venv/bin/lint-imports --no-logo
+    {{ python }} -m pytest -m "not walk" "$@"
+    {{ python }} -m pytest -m walk "$@"
+
+# fetch the pinned packages into .venv/ (done by every recipe that needs them)
+[group('start here')]
+install:
+    ./deploy/install.sh
+
+# start a site's mesh under supervision (default: a generated home; --seed N)
+[group('mesh')]
+up *args: install
+    {{ python }} -m console up "$@"
+
+# stop the mesh
+[group('mesh')]
+down *args: install
+    {{ python }} -m console down "$@"
+
+# which processes run, and are they well (--json)
+[group('mesh')]
+status *args: install
+    {{ python }} -m console status "$@"
+
+# what processes say: logs [NAME] [-f]
+[group('mesh')]
+logs *args: install
+    {{ python }} -m console logs "$@"
+
+# restart one process: restart NAME
+[group('mesh')]
+restart *args: install
+    {{ python }} -m console restart "$@"
+
+# say what is to be done, in plain words; waits and shows progress (--json)
+[group('operate')]
+task *args: install
+    {{ python }} -m console task "$@"
+
+# where is it believed to be, who said so, when, how sure (--json)
+[group('operate')]
+why *args: install
+    {{ python }} -m console why "$@"
+
+# halt every robot and cancel all tasks
+[group('operate')]
+stop *args: install
+    {{ python }} -m console stop "$@"
+
+# halt the robots, keep the tasks
+[group('operate')]
+pause *args: install
+    {{ python }} -m console pause "$@"
+
+# go on after a pause
+[group('operate')]
+resume *args: install
+    {{ python }} -m console resume "$@"
+
+# cancel one task: cancel TASK
+[group('operate')]
+cancel *args: install
+    {{ python }} -m console cancel "$@"
+
+# the fused world, live in a browser (prints the address) or in a window where there is a display
+[group('watch')]
+view *args: install
+    {{ python }} -m console view "$@"
+
+# record what the view shows: record FILE.rrd
+[group('watch')]
+record *args: install
+    {{ python }} -m console record "$@"
+
+# list the site files there are
+[group('sites')]
+sites *args: install
+    {{ python }} -m console sites "$@"
+
+# write the site file of a generated home: home --seed N --out FILE
+[group('sites')]
+home *args: install
+    {{ python }} -m sim.generator "$@"
+
+# measure what the machine does: fusion, latency, physics, cameras, memory, presence (--json)
+[group('measure')]
+perf *args: install
+    {{ python }} -m console perf "$@"
+
+# the embedded detector's precision, recall, position error and state accuracy on held-out houses
+[group('measure')]
+measure-detector *args: install
+    {{ python }} -m sim.training.measure "$@"
+
+# the demo on many seeds: success, steps, path for each (--seeds 0-19)
+[group('measure')]
+demo-seeds *args: install
+    {{ python }} -m console demo-seeds "$@"
+
+# format the tree and rewrite the generated pages
+[group('develop')]
+fmt: install
+    {{ python }} -m ruff check --fix .
+    {{ python }} -m ruff format .
+    {{ python }} -m wire.protocol_page
+
+# renew requirements.lock from pyproject.toml
+[group('develop')]
+lock:
+    uv pip compile -q --python-version 3.11 --python-platform x86_64-manylinux_2_28 --generate-hashes \
+        --no-header --no-annotate --no-emit-index-url --extra all --extra dev pyproject.toml -o requirements.lock

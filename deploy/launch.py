@@ -72,11 +72,8 @@ class Mesh:
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)
         self._socket.unlink(missing_ok=True)
         config = self.run_dir / "supervisord.conf"
-        config.write_text(
-            render(
-                site, self.site_file, self.run_dir, self._socket, sys.executable, self.credentials_dir, overrides or {}
-            )
-        )
+        places = Places(self.site_file, self.run_dir, self._socket, self.credentials_dir, sys.executable)
+        config.write_text(render(site, places))
         done = subprocess.run(
             [sys.executable, "-m", "supervisor.supervisord", "-c", str(config)],
             capture_output=True, text=True, check=False, env={**os.environ, "PYTHONWARNINGS": "ignore"},

@@ -44,7 +44,8 @@ def _noise(rng: np.random.Generator, blur_x_px: float, blur_y_px: float) -> Imag
     fx, fy = np.fft.fftfreq(SIDE_PX)[None, :], np.fft.fftfreq(SIDE_PX)[:, None]
     low_pass = np.exp(-2.0 * np.pi**2 * ((fx * blur_x_px) ** 2 + (fy * blur_y_px) ** 2))
     smooth = np.fft.ifft2(np.fft.fft2(rng.standard_normal((SIDE_PX, SIDE_PX))) * low_pass).real
-    return np.clip((smooth - smooth.mean()) / smooth.std(), -2.0, 2.0)
+    normal: Image = np.clip((smooth - smooth.mean()) / smooth.std(), -2.0, 2.0)
+    return normal
 
 
 def _grid() -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -60,7 +61,8 @@ def _wood(rng: np.random.Generator) -> Image:
     shade = rng.uniform(0.80, 0.98, (8, 2))[plank, board]
     ends = np.diff(board, axis=1, append=board[:, :1]) != 0
     seam = np.where((rows % 16 == 0) | ends, 0.72, 1.0)
-    return (shade + 0.05 * _noise(rng, 20.0, 0.8)) * seam
+    planks: Image = (shade + 0.05 * _noise(rng, 20.0, 0.8)) * seam
+    return planks
 
 
 def _tile(rng: np.random.Generator) -> Image:

@@ -1,0 +1,109 @@
+"""One thing, as one camera has come to know it over several pictures."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from devices.vision import layout
+from devices.vision.lens import Floats
+from devices.vision.projection import Sighting
+from wire.catalogue import PROP_FLAG, catalogue
+from wire.messages.observation import Covariance, ObjectObservation
+from wire.model import Vec3
+
+CONFIRM_SIGHTINGS = 2
+VOTE_MEMORY = 0.8
+"""What is left of earlier votes after a new one: pictures of one camera are not independent."""
+PROP_MEMORY = 0.6
+PROP_LIMIT = 4.0
+POSITION_GAIN = 0.3
+
+
+@dataclass
+class Track:
+    """`known` counts pictures in which the thing was or should have been seen."""
+
+    name: str
+    first: Sighting
+    stamp_s: float
+    votes: Floats = field(init=False)
+    prop_log_odds: dict[str, float] = field(default_factory=dict)
+    position: Floats = field(init=False)
+    covariance_m2: Covariance = field(init=False)
+    confidence: float = 0.0
+    sightings: int = 0
+    known: int = 0
+    misses: int = 0
+    box_px: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        self.votes = np.zeros(len(layout.detector_types()))
+        self.position = np.array(self.first.position_enu_m)
+        self.covariance_m2 = self.first.covariance_m2
+        self.see(self.first, self.stamp_s)
+
+    @property
+    def type(self) -> str:
+        return layout.detector_types()[int(self.votes.argmax())]
+
+    @property
+    def confirmed(self) -> bool:
+        return self.sightings >= CONFIRM_SIGHTINGS
+
+    @property
+    def position_enu_m(self) -> Vec3:
+        return (float(self.position[0]), float(self.position[1]), float(self.position[2]))
+
+    @property
+    def miss_probability(self) -> float:
+        """How often a thing like this goes unseen although it is there, from this track's own record."""
+        return (self.known - self.sightings - self.misses + 1.0) / (self.known - self.misses + 3.0)
+
+    def see(self, sighting: Sighting, stamp_s: float) -> None:
+        """Take in one more sighting."""
+        detection = sighting.detection
+        self.stamp_s = stamp_s
+        self.sightings += 1
+        self.known += 1
+        self.misses = 0
+        self.box_px = detection.box_px
+        self.votes = VOTE_MEMORY * self.votes + detection.log_probs
+        self.confidence += (detection.confidence - self.confidence) / min(self.sightings, 4)
+        self._move(sighting)
+        for prop, probability in detection.props.items():
+            p = min(max(probability, 0.02), 0.98)
+            log_odds = PROP_MEMORY * self.prop_log_odds.get(prop, 0.0) + float(np.log(p / (1.0 - p)))
+            self.prop_log_odds[prop] = min(max(log_odds, -PROP_LIMIT), PROP_LIMIT)
+
+    def _move(self, sighting: Sighting) -> None:
+        """Errors of one camera repeat, so that averaging removes jitter and leaves the covariance as it is.
+
+        A thing that has plainly moved is followed at once.
+        """
+        away = np.array(sighting.position_enu_m) - self.position
+        sd_m = float(np.sqrt(max(sighting.covariance_m2[0], sighting.covariance_m2[2])))
+        moved = float(np.hypot(away[0], away[1])) > max(0.25, 1.5 * sd_m)
+        gain = 1.0 if moved else max(POSITION_GAIN, 1.0 / self.sightings)
+        self.position = self.position + gain * away
+        self.covariance_m2 = sighting.covariance_m2
+
+    def props(self) -> dict[str, float]:
+        """Probability of every property that a thing of this type has and that has been judged."""
+        row = catalogue()[self.type]
+        return {
+            prop: float(1.0 / (1.0 + np.exp(-log_odds)))
+            for prop, log_odds in sorted(self.prop_log_odds.items())
+            if row.can(PROP_FLAG[prop])
+        }
+
+    def observation(self) -> ObjectObservation:
+        """What is said of it on the wire."""
+        return ObjectObservation(
+            track=self.name,
+            type=self.type,
+            confidence=min(1.0, max(0.0, self.confidence)),
+            position_enu_m=self.position_enu_m,
+            covariance_m2=self.covariance_m2,
+            props=self.props(),
+            box_px=self.box_px,
+        )

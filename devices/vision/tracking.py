@@ -1,0 +1,161 @@
+"""Sightings of many pictures to things that have names: association, confirmation, and evidence that one has gone."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from devices.vision import layout
+from devices.vision.look import Seen
+from devices.vision.projection import Sighting
+from devices.vision.track import Track
+from devices.vision.visibility import should_be_visible
+from wire.messages.observation import Absence, ObjectObservation
+
+GATE_SIGMAS = 3.0
+GATE_FLOOR_M = 0.15
+MAX_GATE_M = 1.2
+TYPE_WEIGHT = 0.6
+MIN_TYPE_AGREEMENT = -6.0
+"""Log of the least overlap of two type distributions that can be one thing."""
+GONE_CONFIDENCE = 0.97
+MIN_MISSES = 3
+FORGET_S = 120.0
+"""A thing out of view is remembered this long under its name."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """Something that a person would note: `what` is appeared, gone, or a property's name."""
+
+    what: str
+    track: Track
+    value: bool = True
+
+
+@dataclass(frozen=True)
+class Tracked:
+    """What the tracker makes of one picture."""
+
+    objects: tuple[ObjectObservation, ...] = ()
+    """Confirmed things seen in this picture."""
+    gone: tuple[Absence, ...] = ()
+    """Confirmed things that should have been seen in this picture and the last few and were not."""
+    changes: tuple[Change, ...] = ()
+
+
+@dataclass
+class Tracker:
+    """The memory of one camera, fixed or moving."""
+
+    tracks: list[Track] = field(default_factory=list)
+    _count: int = 0
+    _said: dict[tuple[str, str], bool] = field(default_factory=dict)
+
+    def update(self, seen: Seen) -> Tracked:
+        """Take in one picture."""
+        matched = associate(self.tracks, seen.sightings)
+        hit = set(matched.values())
+        for index, track in matched.items():
+            self.tracks[track].see(seen.sightings[index], seen.stamp_s)
+        unseen = [t for i, t in enumerate(self.tracks) if i not in hit]
+        current = [self.tracks[i] for i in sorted(hit)]
+        gone = self._miss(unseen, seen)
+        current += self._begin([s for i, s in enumerate(seen.sightings) if i not in matched], seen.stamp_s)
+        told = [t for t in current if t.confirmed and t.type != layout.ROBOT]
+        changes = self._changes(told) + [Change("gone", t) for t in gone]
+        return Tracked(tuple(t.observation() for t in told), tuple(_absence(t) for t in gone), tuple(changes))
+
+    def _begin(self, sightings: Sequence[Sighting], stamp_s: float) -> list[Track]:
+        started = []
+        for sighting in sightings:
+            self._count += 1
+            started.append(Track(f"t{self._count}", sighting, stamp_s))
+        self.tracks += started
+        return started
+
+    def _miss(self, unseen: list[Track], seen: Seen) -> list[Track]:
+        """Count misses of what should be visible; forget what is gone, unconfirmed or long out of sight."""
+        gone, dropped = [], []
+        for track in unseen:
+            if not should_be_visible(track, seen):
+                if seen.stamp_s - track.stamp_s > FORGET_S:
+                    dropped.append(track)
+                continue
+            track.known += 1
+            track.misses += 1
+            if not track.confirmed:
+                dropped.extend([track] if track.misses >= 2 else [])
+            elif track.misses >= MIN_MISSES and _absence(track).confidence >= GONE_CONFIDENCE:
+                dropped.append(track)
+                gone.append(track)
+        self.tracks = [t for t in self.tracks if t not in dropped]
+        return [t for t in gone if t.type != layout.ROBOT]
+
+    def _changes(self, told: list[Track]) -> list[Change]:
+        changes = []
+        for track in told:
+            if self._say(track, "appeared", True):
+                changes.append(Change("appeared", track))
+            for prop, probability in track.props().items():
+                if not 0.2 < probability < 0.8 and self._say(track, prop, probability > 0.5):
+                    changes.append(Change(prop, track, probability > 0.5))
+        return changes
+
+    def _say(self, track: Track, what: str, value: bool) -> bool:
+        """Whether this is news: a property's first value is not a change."""
+        key = (track.name, what)
+        before = self._said.get(key)
+        self._said[key] = value
+        return before is None if what == "appeared" else before is not None and before != value
+
+
+def associate(tracks: Sequence[Track], sightings: Sequence[Sighting]) -> dict[int, int]:
+    """Sighting number -> track number, nearest pairs first, each used once."""
+    pairs = []
+    for i, sighting in enumerate(sightings):
+        for j, track in enumerate(tracks):
+            cost = pair_cost(track, sighting)
+            if cost is not None:
+                pairs.append((cost, i, j))
+    matched: dict[int, int] = {}
+    used: set[int] = set()
+    for _, i, j in sorted(pairs):
+        if i not in matched and j not in used:
+            matched[i] = j
+            used.add(j)
+    return matched
+
+
+def pair_cost(track: Track, sighting: Sighting) -> float | None:
+    """How badly a sighting fits a track: distance in gates plus disagreement on the type; None when it cannot be."""
+    dx, dy, dz = np.array(sighting.position_enu_m) - track.position
+    xx, xy, yy, zz = (a + b for a, b in zip(sighting.covariance_m2, track.covariance_m2, strict=True))
+    floor = GATE_FLOOR_M**2
+    xx, yy, zz = xx + floor, yy + floor, zz + floor
+    if dx * dx + dy * dy > MAX_GATE_M**2:
+        return None
+    determinant = xx * yy - xy * xy
+    distance2 = (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / determinant + dz * dz / zz
+    if distance2 > GATE_SIGMAS**2:
+        return None
+    agreement = type_agreement(track, sighting)
+    if agreement < MIN_TYPE_AGREEMENT:
+        return None
+    return float(np.sqrt(distance2) - TYPE_WEIGHT * agreement)
+
+
+def type_agreement(track: Track, sighting: Sighting) -> float:
+    """Log of the probability that track and sighting are of one type, were their opinions independent."""
+    shifted = track.votes - track.votes.max()
+    weights = np.exp(shifted) / np.exp(shifted).sum()
+    return float(np.log(max(1e-9, float(weights @ np.exp(sighting.detection.log_probs)))))
+
+
+def _absence(track: Track) -> Absence:
+    return Absence(
+        track=track.name,
+        type=track.type,
+        position_enu_m=track.position_enu_m,
+        confidence=float(1.0 - track.miss_probability**track.misses),
+    )

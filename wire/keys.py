@@ -66,7 +66,7 @@ TOPICS: tuple[Topic, ...] = (
         "latest",
         2.0,
         EVERYONE,
-        ("hub", "view", "console"),
+        ("hub", "robot", "view", "console"),
         "a process's deciding loop is alive",
     ),
     Topic(

@@ -1,0 +1,177 @@
+"""The floor as a grid: walls from the site file, furniture from the lidar, how far every place is from the nearest."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import ceil, hypot
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wire.messages.driver import LaserScan
+from wire.model import Vec2
+from wire.site import Site, Wall
+
+CELL_M = 0.1
+MARGIN_M = 0.3
+REACH_M = 1.0
+"""Clearances are exact up to here."""
+HIT, MISS, MOST, SOLID = 0.5, -0.25, 3.0, 0.7
+"""Two hits make an obstacle; a beam that passes weakens it, up to twelve of them clear it."""
+SHORT_OF_HIT_M = 0.15
+WALL_SKIN_M = 0.12
+"""A beam that ends this near to a wall has hit the wall."""
+OTHER_ROBOT_M = 0.6
+
+Grid = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Row 0 is the south-most."""
+
+    row: int
+    column: int
+
+
+class FloorMap:
+    """What a robot knows of where it can go. Deterministic: the same scans make the same map."""
+
+    def __init__(self, site: Site) -> None:
+        corners = np.array([p for room in site.room for p in room.polygon_m])
+        self._origin = corners.min(axis=0) - MARGIN_M
+        size = corners.max(axis=0) + MARGIN_M - self._origin
+        self.columns, self.rows = ceil(size[0] / CELL_M), ceil(size[1] / CELL_M)
+        x = self._origin[0] + (np.arange(self.columns) + 0.5) * CELL_M
+        y = self._origin[1] + (np.arange(self.rows) + 0.5) * CELL_M
+        self._x, self._y = np.meshgrid(x, y)
+        self.walls_m: Grid = np.full((self.rows, self.columns), REACH_M, np.float32)
+        for wall in site.wall:
+            self.walls_m = np.minimum(self.walls_m, self._to_wall(wall))
+        self._weight: Grid = np.zeros((self.rows, self.columns), np.float32)
+        self._seen_s: Grid = np.zeros((self.rows, self.columns), np.float32)
+        self._hit_m = np.zeros((self.rows, self.columns, 2), np.float32)
+        self._window = _window(ceil(REACH_M / CELL_M))
+        self._clearance: Grid | None = None
+
+    def cell(self, point_m: Vec2) -> Cell:
+        """The cell of a point; a point outside gets the nearest."""
+        column = int((point_m[0] - self._origin[0]) // CELL_M)
+        row = int((point_m[1] - self._origin[1]) // CELL_M)
+        return Cell(min(max(row, 0), self.rows - 1), min(max(column, 0), self.columns - 1))
+
+    def centre_m(self, cell: Cell) -> Vec2:
+        return (float(self._x[cell.row, cell.column]), float(self._y[cell.row, cell.column]))
+
+    def inside(self, polygon_m: Sequence[Vec2]) -> Mask:
+        """Cells whose centre lies in the polygon."""
+        result = np.zeros((self.rows, self.columns), np.bool_)
+        for (x0, y0), (x1, y1) in zip(polygon_m, [*polygon_m[1:], polygon_m[0]], strict=True):
+            if y0 != y1:
+                crosses = (self._y >= min(y0, y1)) & (self._y < max(y0, y1))
+                result ^= crosses & (self._x < x0 + (self._y - y0) / (y1 - y0) * (x1 - x0))
+        return result
+
+    def distance_m(self, point_m: Vec2) -> Grid:
+        """From every cell's centre to the point."""
+        distances: Grid = np.hypot(self._x - point_m[0], self._y - point_m[1]).astype(np.float32)
+        return distances
+
+    def see(self, scan: LaserScan, others_m: Iterable[Vec2] = ()) -> None:
+        """Mark where beams end and weaken what they pass. Other robots are not furniture."""
+        ranges = np.array(scan.ranges_m)
+        angles = scan.yaw_rad + scan.angle_min_rad + scan.angle_step_rad * np.arange(len(ranges))
+        ray = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        origin = np.array(scan.position_enu_m[:2])
+        self._pass(origin, ray, np.where(ranges > 0.0, ranges, scan.range_max_m) - SHORT_OF_HIT_M)
+        ends = (origin + ray * ranges[:, None])[ranges > 0.0]
+        for other_m in others_m:
+            ends = ends[np.hypot(ends[:, 0] - other_m[0], ends[:, 1] - other_m[1]) > OTHER_ROBOT_M]
+        self.mark(ends, scan.stamp_s)
+
+    def mark(self, ends_m: NDArray[np.float64], now_s: float, weight: float = HIT) -> None:
+        """There is something at these points."""
+        columns, rows, known = self._indices(ends_m)
+        fresh = known & (self.walls_m[rows, columns] > WALL_SKIN_M)
+        rows, columns, ends_m = rows[fresh], columns[fresh], ends_m[fresh]
+        cells, first = np.unique(rows * self.columns + columns, return_index=True)
+        flat = self._weight.reshape(-1)
+        flat[cells] = np.minimum(flat[cells] + weight, max(weight, MOST))
+        self._seen_s.reshape(-1)[cells] = now_s
+        self._hit_m.reshape(-1, 2)[cells] = ends_m[first]
+        self._clearance = None
+
+    def forget(self, before_s: float) -> None:
+        """Drop obstacles not seen since: things move, and a blocked way is worth another look."""
+        self._weight[self._seen_s < before_s] = 0.0
+        self._clearance = None
+
+    @property
+    def clearance_m(self) -> Grid:
+        """From every cell's centre to the nearest wall or obstacle, at most REACH_M."""
+        if self._clearance is None:
+            self._clearance = self._measure()
+        return self._clearance
+
+    def hits_m(self) -> NDArray[np.float32]:
+        """Points of the obstacles that were seen (not the site's walls), one in each cell."""
+        hits: NDArray[np.float32] = self._hit_m[self._weight >= SOLID]
+        return hits
+
+    def clear_of_walls(self, start_m: Vec2, end_m: Vec2, margin_m: float = 0.06) -> bool:
+        """Whether the straight line crosses no wall of the site."""
+        return bool((self.along(self.walls_m, start_m, end_m) > margin_m).all())
+
+    def along(self, grid: Grid, start_m: Vec2, end_m: Vec2) -> Grid:
+        """The grid's values along a straight line, every half cell."""
+        count = max(2, ceil(2.0 * hypot(end_m[0] - start_m[0], end_m[1] - start_m[1]) / CELL_M) + 1)
+        points = np.linspace(start_m, end_m, count)
+        columns, rows, _ = self._indices(points)
+        values: Grid = grid[rows, columns]
+        return values
+
+    def _indices(self, points_m: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64], Mask]:
+        index = np.floor((points_m - self._origin) / CELL_M).astype(np.int64)
+        columns, rows = index[:, 0], index[:, 1]
+        known = (columns >= 0) & (columns < self.columns) & (rows >= 0) & (rows < self.rows)
+        return np.clip(columns, 0, self.columns - 1), np.clip(rows, 0, self.rows - 1), known
+
+    def _pass(self, origin: NDArray[np.float64], ray: NDArray[np.float64], free_m: NDArray[np.float64]) -> None:
+        steps = np.arange(0.0, float(free_m.max(initial=0.0)), CELL_M)
+        points = origin + ray[:, None, :] * steps[None, :, None]
+        columns, rows, known = self._indices(points[steps[None, :] < free_m[:, None]])
+        cells = np.unique((rows * self.columns + columns)[known])
+        flat = self._weight.reshape(-1)
+        flat[cells] = np.maximum(flat[cells] + MISS, 0.0)
+        self._clearance = None
+
+    def _to_wall(self, wall: Wall) -> Grid:
+        """Distance of every cell's centre to the wall's surface."""
+        start, end = np.array(wall.start_m), np.array(wall.end_m)
+        along = end - start
+        length2 = max(float(along @ along), 1e-9)
+        t = np.clip(((self._x - start[0]) * along[0] + (self._y - start[1]) * along[1]) / length2, 0.0, 1.0)
+        gap = np.hypot(self._x - start[0] - t * along[0], self._y - start[1] - t * along[1])
+        distances: Grid = np.maximum(gap - wall.thickness_m / 2.0, 0.0).astype(np.float32)
+        return distances
+
+    def _measure(self) -> Grid:
+        result = self.walls_m.copy()
+        rows, columns = np.nonzero(self._weight >= SOLID)
+        near_rows = (rows[:, None] + self._window[:, 0]).ravel()
+        near_columns = (columns[:, None] + self._window[:, 1]).ravel()
+        inside = (near_rows >= 0) & (near_rows < self.rows) & (near_columns >= 0) & (near_columns < self.columns)
+        near_rows, near_columns = near_rows[inside], near_columns[inside]
+        hits = np.repeat(self._hit_m[rows, columns], len(self._window), axis=0)[inside]
+        gaps = np.hypot(self._x[near_rows, near_columns] - hits[:, 0], self._y[near_rows, near_columns] - hits[:, 1])
+        np.minimum.at(result, (near_rows, near_columns), gaps.astype(np.float32))
+        return result
+
+
+def _window(radius: int) -> NDArray[np.int64]:
+    """Offsets of the cells within a radius."""
+    span = np.arange(-radius, radius + 1)
+    rows, columns = np.meshgrid(span, span, indexing="ij")
+    near = np.hypot(rows, columns) <= radius
+    offsets: NDArray[np.int64] = np.stack([rows[near], columns[near]], axis=1)
+    return offsets

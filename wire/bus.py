@@ -51,6 +51,10 @@ class Presence:
     alive: bool
 
 
+class CannotRun(Exception):
+    """A core, or its building, cannot go on; the text is one sentence with the remedy. Its process exits with 1."""
+
+
 Event = Received | Request | Reply | Presence
 
 

@@ -1,0 +1,162 @@
+"""OpenGL without a window: every shape of a scene in a handful of instanced draws, colour and owner in one pass."""
+
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from sim import textures
+from sim.render import shaders
+from sim.render.instances import Instances, PartsOf
+from sim.render.lamps import lamp_table
+from sim.render.meshes import vertices
+from sim.render.picture import NOTHING_ID, Camera, Picture, RenderError
+from sim.render.portals import Portals
+from sim.render.rows import ROW
+from sim.render.view import Batch, depth_from_window, projection_matrix, view_matrix, visible_batches
+from sim.scene import Body, Scene, Vec3
+
+MESH_FORMAT = ("3f 3f 2f 3f 3f", "position", "normal", "uv", "along_u", "along_v")
+ROW_NAMES = ("axis_x", "axis_y", "axis_z", "centre", "rgb", "surface", "emission", "room", "owner")
+WITHOUT_DISPLAY: dict[str, Any] = {"backend": "egl"}
+ROW_FORMAT = f"3f 3f 3f 3f 3f 1f 1f 1f 1i {ROW.itemsize - ROW.fields['shape'][1] if ROW.fields else 0}x/i"
+
+
+def open_context() -> moderngl.Context:
+    """A context without a display. Raises RenderError when the machine has no OpenGL 3.3."""
+    try:
+        return moderngl.create_context(standalone=True, require=330, **WITHOUT_DISPLAY)
+    # The binding raises bare exceptions of several kinds: no library, no device, too old a version.
+    except (ImportError, OSError, RuntimeError, ValueError, AttributeError) as error:
+        raise RenderError(f"OpenGL 3.3 does not start ({error}); install libegl1 and libgl1-mesa-dri") from error
+
+
+class GlRenderer:
+    """Draws with whatever OpenGL 3.3 the machine has; a software one is enough."""
+
+    name = "gl"
+
+    def __init__(self, context: moderngl.Context, scene: Scene, parts_of: PartsOf) -> None:
+        self._context = context
+        self._instances = Instances(scene, parts_of)
+        self._portals = Portals(scene, self._instances.finder)
+        self._surfaces = _upload_surfaces(self._context)
+        lamps, extents, ceiling_m = lamp_table(scene)
+        self._programs = tuple(
+            self._context.program(vertex_shader=shaders.VERTEX, fragment_shader=fragment)
+            for fragment in (shaders.PLAIN, shaders.TEXTURED)
+        )
+        for program in self._programs:
+            _write(program, "lamps", lamps)
+            _write(program, "extents", extents)
+            _write(program, "repeat_m", np.array(textures.REPEAT_M))
+            _write(program, "ceiling_m", np.array([ceiling_m]))
+        self._meshes: dict[tuple[int, int, int], _Mesh] = {}
+        self._targets: dict[tuple[int, int], _Target] = {}
+        self._context.enable(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._context.front_face = "cw"
+
+    def update(self, body: Body) -> None:
+        self._instances.update(body)
+
+    def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool = False) -> None:
+        self._instances.set_robot(name, position_m, yaw_rad, holding)
+
+    def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
+        size = (camera.width_px, camera.height_px)
+        if size not in self._targets:
+            self._targets[size] = _Target(self._context, size)
+        target = self._targets[size]
+        frame = target.with_ids if with_ids else target.plain
+        frame.use()
+        frame.clear(float(NOTHING_ID), 0.0, 0.0, 1.0)
+        self._surfaces.use()
+        clip_from_site = (projection_matrix(camera) @ view_matrix(camera)).T.astype(np.float32).tobytes()
+        for program in self._programs:
+            _uniform(program, "clip_from_site").write(clip_from_site)
+        for batch in visible_batches(self._instances, self._portals, camera):
+            self._draw(batch)
+        return target.read(frame, with_ids, with_depth)
+
+    def close(self) -> None:
+        self._context.release()
+
+    def _draw(self, batch: Batch) -> None:
+        textured = batch.rows["surface"] > 0.0
+        for kind, rows in ((0, batch.rows[~textured]), (1, batch.rows[textured])):
+            if not len(rows):
+                continue
+            key = (batch.shape, batch.detail, kind)
+            if key not in self._meshes:
+                mesh = vertices(batch.shape, batch.detail)
+                self._meshes[key] = _Mesh(self._context, self._programs[kind], mesh)
+            self._meshes[key].draw(rows)
+
+
+class _Mesh:
+    """One shape's triangles and room for the rows of the picture being drawn."""
+
+    def __init__(self, context: moderngl.Context, program: moderngl.Program, mesh: NDArray[np.float32]) -> None:
+        self._context, self._program = context, program
+        self._vertices = context.buffer(mesh.tobytes())
+        self._reserve(64)
+
+    def draw(self, rows: NDArray[Any]) -> None:
+        if len(rows) > self._capacity:
+            self._array.release()
+            self._rows.release()
+            self._reserve(2 * len(rows))
+        self._rows.orphan()
+        self._rows.write(rows.tobytes())
+        self._array.render(instances=len(rows))
+
+    def _reserve(self, capacity: int) -> None:
+        self._capacity = capacity
+        self._rows = self._context.buffer(reserve=capacity * ROW.itemsize, dynamic=True)
+        content = [(self._vertices, *MESH_FORMAT), (self._rows, ROW_FORMAT, *ROW_NAMES)]
+        self._array = self._context.vertex_array(self._program, content, skip_errors=True)
+
+
+class _Target:
+    """Where pictures of one size are drawn and read back."""
+
+    def __init__(self, context: moderngl.Context, size: tuple[int, int]) -> None:
+        self._size = size
+        colour = context.texture(size, 4)
+        owners = context.texture(size, 1, dtype="i4")
+        depth = context.depth_texture(size)
+        self.plain = context.framebuffer([colour], depth)
+        self.with_ids = context.framebuffer([colour, owners], depth)
+
+    def read(self, frame: moderngl.Framebuffer, with_ids: bool, with_depth: bool) -> Picture:
+        width, height = self._size
+        rgb = np.frombuffer(frame.read(components=3, alignment=1), np.uint8).reshape(height, width, 3)
+        ids = depth_m = None
+        if with_ids:
+            ids = np.frombuffer(frame.read(components=1, attachment=1, dtype="i4"), np.int32).reshape(height, width)
+        if with_depth:
+            raw = np.frombuffer(frame.read(components=1, attachment=-1, dtype="f4"), np.float32)
+            depth_m = depth_from_window(raw.reshape(height, width))
+        return Picture(rgb, ids, depth_m)
+
+
+def _upload_surfaces(context: moderngl.Context) -> moderngl.TextureArray:
+    images = textures.layers()
+    count, height, width, _ = images.shape
+    surfaces = context.texture_array((width, height, count), 3, images.tobytes(), alignment=1)
+    surfaces.build_mipmaps()
+    surfaces.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+    return surfaces
+
+
+def _write(program: moderngl.Program, name: str, values: NDArray[np.float64]) -> None:
+    # A compiler leaves out what a shader does not use.
+    if name in program:
+        _uniform(program, name).write(values.astype(np.float32).tobytes())
+
+
+def _uniform(program: moderngl.Program, name: str) -> moderngl.Uniform:
+    member = program[name]
+    assert isinstance(member, moderngl.Uniform)
+    return member

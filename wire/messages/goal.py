@@ -17,6 +17,7 @@ Predicate = Literal[
     "sliced",
     "found",  # subject's place is known from a look in this task
     "visited",  # a robot has been in the room / beside the object
+    "touched",  # a robot has handled the subject in any way; only ever forbidden
 ]
 
 
@@ -40,6 +41,9 @@ class Goal(Message):
     subject: Selector
     object: Selector | None = None
     negated: bool = False
+    forbidden: bool = False
+    """A restraint on the way ("do not open the box"): no step may bring this about. It asks nothing of the end, so it
+    always holds. `in` without an object forbids every move of the subject; `visited` forbids entering the room."""
     after: tuple[int, ...] = ()
     """Indices of goals in the same list that must be reached first."""
     text: str = Field(default="", max_length=300)

@@ -1,0 +1,179 @@
+"""The building as rigid bodies: walls and furniture that stand, robots that drive, loose things that can be pushed.
+
+What rests in or on a receptacle is carried by it and needs no body of its own; what lies on the floor has one, asleep
+until something touches it. The gripper moves things by changing the scene and telling this module.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2
+
+from sim.boxes import Box, body_box, structure_boxes
+from sim.bullet import GRAVITY_MPS2, STEP_S, add_static_boxes, open_bullet
+from sim.rover import Rover
+from sim.scene import Body, Scene, Vec2, Vec3
+from wire.catalogue import catalogue
+
+RAY, STATIC, FLOOR, LOOSE = 1, 2, 4, 8
+FIRST_ROBOT = 16
+"""Collision groups (Bullet's rays are in group 1); each robot has one of its own, so that its rays look past itself."""
+EVERYTHING = 0x7FFF
+
+DENSITY_KGPM3 = 150.0
+LOOSE_MASS_KG = (0.05, 3.0)
+CONTACT_M = 0.001
+EPISODE_GAP_S = 0.25
+"""Contacts of the same pair that are nearer in time than this are one collision."""
+CONTACT_EVERY = 3
+"""Physics steps from one look at the contacts to the next."""
+
+
+@dataclass(frozen=True)
+class RobotStart:
+    id: str
+    position_m: Vec2
+    yaw_rad: float
+
+
+def is_furniture(body: Body) -> bool:
+    """Furniture stands where it is; everything that a gripper can take is small and may move."""
+    return not catalogue()[body.type].can("pickupable")
+
+
+class Physics:
+    def __init__(self, scene: Scene, robots: Sequence[RobotStart]) -> None:
+        self.scene = scene
+        self.step_count = 0
+        self.collisions = 0
+        self._bullet = open_bullet()
+        self._last_contact: dict[tuple[str, str], int] = {}
+        self._touching: set[str] = set()
+        self._loose: dict[int, int] = {}
+        self._add_building()
+        self.robots = {start.id: self._add_robot(k, start) for k, start in enumerate(robots)}
+        self._names = {rover.body: rover.id for rover in self.robots.values()}
+        for key in sorted(scene.bodies):
+            self.place(key)
+
+    def close(self) -> None:
+        self._bullet.disconnect()
+
+    def _add_building(self) -> None:
+        bullet = self._bullet
+        floor = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1)
+        bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, LOOSE)
+        standing = [body_box(b) for _, b in sorted(self.scene.bodies.items()) if is_furniture(b) and not b.gone]
+        add_static_boxes(bullet, structure_boxes(self.scene) + standing, STATIC, EVERYTHING & ~(STATIC | FLOOR))
+
+    def _add_robot(self, index: int, start: RobotStart) -> Rover:
+        group = FIRST_ROBOT << index
+        return Rover(self._bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING & ~FLOOR)
+
+    # Time
+
+    def advance(self, steps: int) -> None:
+        """Let `steps` physics steps of 1/240 s pass."""
+        rovers = tuple(self.robots.values())
+        for _ in range(steps):
+            for rover in rovers:
+                rover.push(STEP_S, GRAVITY_MPS2)
+            self._bullet.stepSimulation()
+            self.step_count += 1
+            if self.step_count % CONTACT_EVERY == 0:
+                self._count_contacts()
+        for rover in rovers:
+            rover.tilt(steps * STEP_S)
+        self._follow_loose()
+
+    def _count_contacts(self) -> None:
+        self._touching.clear()
+        for rover in self.robots.values():
+            for contact in self._bullet.getContactPoints(rover.body):
+                other = contact[2] if contact[1] == rover.body else contact[1]
+                if contact[8] <= CONTACT_M:
+                    self._touching.add(rover.id)
+                    self._note_contact(rover.id, other)
+
+    def _note_contact(self, robot: str, other: int) -> None:
+        if other in self._loose.values():
+            return  # pushing a ball is no collision
+        name = self._names.get(other, "")
+        pair = (min(robot, name), max(robot, name))
+        before = self._last_contact.get(pair)
+        if before is None or (self.step_count - before) * STEP_S > EPISODE_GAP_S:
+            self.collisions += 1
+        self._last_contact[pair] = self.step_count
+
+    def in_contact(self, robot: str) -> bool:
+        """Whether the robot touched anything but the floor when last looked."""
+        return robot in self._touching
+
+    # Loose things
+
+    def place(self, key: int) -> None:
+        """Make the physics agree with the scene about one thing that was taken, put or lies on the floor."""
+        body = self.scene.bodies[key]
+        lies = body.parent is None and body.held_by is None and not body.gone
+        if is_furniture(body) or not lies:
+            self._drop_body(key)
+        elif key not in self._loose:
+            self._loose[key] = self._add_loose(body)
+
+    def _drop_body(self, key: int) -> None:
+        bullet_body = self._loose.pop(key, None)
+        if bullet_body is not None:
+            self._bullet.removeBody(bullet_body)
+
+    def _add_loose(self, body: Body) -> int:
+        box = body_box(body)
+        volume_m3 = 8.0 * box.half_m[0] * box.half_m[1] * box.half_m[2]
+        least, most = LOOSE_MASS_KG
+        made: int = self._bullet.createMultiBody(
+            max(least, min(most, DENSITY_KGPM3 * volume_m3)),
+            self._bullet.createCollisionShape(self._bullet.GEOM_BOX, halfExtents=box.half_m),
+            useMaximalCoordinates=1,
+            basePosition=box.centre_m,
+            baseOrientation=self._bullet.getQuaternionFromEuler((0.0, 0.0, box.yaw_rad)),
+        )
+        self._bullet.setCollisionFilterGroupMask(made, -1, LOOSE, EVERYTHING)
+        for state in (self._bullet.ACTIVATION_STATE_ENABLE_SLEEPING, self._bullet.ACTIVATION_STATE_SLEEP):
+            self._bullet.changeDynamics(made, -1, activationState=state)
+        return made
+
+    def _follow_loose(self) -> None:
+        """Take over into the scene what was pushed; what lies inside a pushed thing goes along."""
+        for key, bullet_body in self._loose.items():
+            body = self.scene.bodies[key]
+            (x, y, z), turn = self._bullet.getBasePositionAndOrientation(bullet_body)
+            base_m = (x, y, z - body.size_m[2] / 2.0)
+            moved = max(abs(a - b) for a, b in zip(base_m, body.position_m, strict=True))
+            if moved > 1e-4:
+                move_with_contents(self.scene, key, base_m, 2.0 * atan2(turn[2], turn[3]))
+
+    def awake_count(self) -> int:
+        """How many bodies the solver is busy with."""
+        speeds = (self._bullet.getBaseVelocity(b) for b in self._loose.values())
+        return len(self.robots) + sum(any(linear) or any(angular) for linear, angular in speeds)
+
+    # Rays
+
+    def cast(self, robot: str, starts_m: Sequence[Vec3], ends_m: Sequence[Vec3]) -> list[float]:
+        """How far along each ray (0 to 1) the first thing is that is not this robot; 1 for none."""
+        group = FIRST_ROBOT << list(self.robots).index(robot)
+        hits = self._bullet.rayTestBatch(
+            starts_m, ends_m, numThreads=1, collisionFilterMask=EVERYTHING & ~(group | FLOOR)
+        )
+        return [hit[2] for hit in hits]
+
+
+def move_with_contents(scene: Scene, key: int, position_m: Vec3, yaw_rad: float) -> None:
+    """Put a thing somewhere else, together with all that rests in or on it."""
+    body = scene.bodies[key]
+    before, after = Box(body.position_m, (0.0, 0.0, 0.0), body.yaw_rad), Box(position_m, (0.0, 0.0, 0.0), yaw_rad)
+    body.position_m, body.yaw_rad = position_m, yaw_rad
+    for child_key in sorted(scene.bodies):
+        child = scene.bodies[child_key]
+        if child.parent == key:
+            offset_m = before.local(child.position_m)
+            turned = child.yaw_rad + yaw_rad - before.yaw_rad
+            move_with_contents(scene, child_key, after.site(offset_m), turned)

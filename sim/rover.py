@@ -1,0 +1,135 @@
+"""A robot as one rigid body that obeys velocity commands: it accelerates within limits, contacts stop it."""
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, sin
+from typing import Any
+
+from sim.boxes import Box
+from sim.scene import Vec2, Vec3
+
+BODY_SIZE_M: Vec3 = (0.65, 0.35, 0.43)
+BODY_BOTTOM_M = 0.02
+BODY_CENTRE_M = BODY_BOTTOM_M + BODY_SIZE_M[2] / 2.0
+MAST_FORWARD_M = 0.20
+MAST_TOP_M = 1.30
+MAST_HALF_WIDTH_M = 0.02
+MASS_KG = 12.0
+YAW_INERTIA_KGM2 = 0.6
+FRICTION = 0.1
+ACCELERATION_MPS2 = 2.0
+BRAKING_MPS2 = 4.0
+"""More than the acceleration, so that a robot that stands holds its place against one that pushes."""
+YAW_ACCELERATION_RADPS2 = 8.0
+MAX_SPEED_MPS = 0.8
+MAX_YAW_RATE_RADPS = 1.6
+TILT_RATE_RADPS = 1.5
+HEIGHT_GAIN_PER_S = 20.0
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Where a robot is: its body's centre on the floor, and how it moves (site frame)."""
+
+    position_m: Vec2
+    yaw_rad: float
+    speed_mps: float
+    yaw_rate_radps: float
+
+
+@dataclass
+class Wish:
+    """The velocity asked for, in the body frame, and the tilt asked of the camera."""
+
+    forward_mps: float = 0.0
+    left_mps: float = 0.0
+    yaw_rate_radps: float = 0.0
+    tilt_down_rad: float = 0.3
+
+
+class Rover:
+    """Zero inertia about x and y means infinite there for the solver: the body cannot tip."""
+
+    def __init__(self, bullet: Any, robot: str, start_m: Vec2, yaw_rad: float, group: int, mask: int) -> None:
+        self.id = robot
+        self.wish = Wish()
+        self.tilt_down_rad = self.wish.tilt_down_rad
+        self._bullet = bullet
+        self.body: int = bullet.createMultiBody(
+            MASS_KG,
+            _shape(bullet),
+            useMaximalCoordinates=1,
+            basePosition=(*start_m, BODY_CENTRE_M),
+            baseOrientation=bullet.getQuaternionFromEuler((0.0, 0.0, yaw_rad)),
+        )
+        bullet.changeDynamics(
+            self.body,
+            -1,
+            mass=MASS_KG,  # without it, PyBullet makes a rigid body's mass 0 when its inertia is set
+            localInertiaDiagonal=(0.0, 0.0, YAW_INERTIA_KGM2),
+            lateralFriction=FRICTION,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+        )
+        bullet.setCollisionFilterGroupMask(self.body, -1, group, mask)
+
+    def push(self, step_s: float, gravity_mps2: float) -> None:
+        """Before a physics step: move the velocity towards the wish, as far as the accelerations allow."""
+        position, turn = self._bullet.getBasePositionAndOrientation(self.body)
+        linear, angular = self._bullet.getBaseVelocity(self.body)
+        yaw_rad = 2.0 * atan2(turn[2], turn[3])
+        c, s = cos(yaw_rad), sin(yaw_rad)
+        ahead, aside = self._limited()
+        dvx, dvy = c * ahead - s * aside - linear[0], s * ahead + c * aside - linear[1]
+        allowed = (ACCELERATION_MPS2 if ahead or aside else BRAKING_MPS2) * step_s
+        share = min(1.0, allowed / max(1e-9, hypot(dvx, dvy)))
+        most = YAW_ACCELERATION_RADPS2 * step_s
+        wish_yaw = max(-MAX_YAW_RATE_RADPS, min(MAX_YAW_RATE_RADPS, self.wish.yaw_rate_radps))
+        spin = angular[2] + max(-most, min(most, wish_yaw - angular[2]))
+        # The legs carry the weight: gravity is cancelled and the height held, so that no floor contact is needed.
+        rise = gravity_mps2 * step_s + HEIGHT_GAIN_PER_S * (BODY_CENTRE_M - position[2])
+        self._bullet.resetBaseVelocity(
+            self.body, (linear[0] + share * dvx, linear[1] + share * dvy, rise), (0.0, 0.0, spin)
+        )
+
+    def _limited(self) -> Vec2:
+        ahead, aside = self.wish.forward_mps, self.wish.left_mps
+        share = min(1.0, MAX_SPEED_MPS / max(1e-9, hypot(ahead, aside)))
+        return (share * ahead, share * aside)
+
+    def tilt(self, step_s: float) -> None:
+        most = TILT_RATE_RADPS * step_s
+        self.tilt_down_rad += max(-most, min(most, self.wish.tilt_down_rad - self.tilt_down_rad))
+
+    def motion(self) -> Motion:
+        position, turn = self._bullet.getBasePositionAndOrientation(self.body)
+        linear, angular = self._bullet.getBaseVelocity(self.body)
+        return Motion(
+            (position[0], position[1]), 2.0 * atan2(turn[2], turn[3]), hypot(linear[0], linear[1]), angular[2]
+        )
+
+    def box(self) -> Box:
+        """The body without its mast."""
+        motion = self.motion()
+        half = (BODY_SIZE_M[0] / 2.0, BODY_SIZE_M[1] / 2.0, BODY_SIZE_M[2] / 2.0)
+        return Box((*motion.position_m, BODY_CENTRE_M), half, motion.yaw_rad)
+
+    def eye_m(self) -> Vec3:
+        """Where the mast's camera is."""
+        motion = self.motion()
+        x, y = motion.position_m
+        c, s = cos(motion.yaw_rad), sin(motion.yaw_rad)
+        return (x + MAST_FORWARD_M * c, y + MAST_FORWARD_M * s, MAST_TOP_M)
+
+
+def _shape(bullet: Any) -> int:
+    body_half = [side / 2.0 for side in BODY_SIZE_M]
+    mast_bottom_m = BODY_BOTTOM_M + BODY_SIZE_M[2]
+    mast_half = [MAST_HALF_WIDTH_M, MAST_HALF_WIDTH_M, (MAST_TOP_M - mast_bottom_m) / 2.0]
+    mast_centre = [MAST_FORWARD_M, 0.0, (MAST_TOP_M + mast_bottom_m) / 2.0 - BODY_CENTRE_M]
+    shape: int = bullet.createCollisionShapeArray(
+        shapeTypes=[bullet.GEOM_BOX, bullet.GEOM_BOX],
+        halfExtents=[body_half, mast_half],
+        collisionFramePositions=[[0.0, 0.0, 0.0], mast_centre],
+    )
+    return shape

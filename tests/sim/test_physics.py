@@ -1,0 +1,143 @@
+from math import hypot, pi
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, sweep
+from sim.physics import Physics, RobotStart
+from sim.rover import BODY_SIZE_M, Wish
+from tests.sim.small_home import BALL, FRIDGE, MUG, make_small_home
+
+
+@pytest.fixture
+def make_physics():
+    made = []
+
+    def make(*starts):
+        physics = Physics(make_small_home(), [RobotStart(f"dog-{k + 1}", p, yaw) for k, (p, yaw) in enumerate(starts)])
+        made.append(physics)
+        return physics
+
+    yield make
+    for physics in made:
+        physics.close()
+
+
+def test_a_robot_drives_at_the_speed_asked_for_and_stays_upright(make_physics):
+    physics = make_physics(((1.5, 2.5), 0.0))
+    rover = physics.robots["dog-1"]
+    rover.wish = Wish(forward_mps=0.5)
+    physics.advance(480)
+    assert rover.motion().position_m == pytest.approx((1.5 + 0.5 * 2 - 0.5**2 / 2 / 2.0, 2.5), abs=0.01)
+    assert rover.motion().speed_mps == pytest.approx(0.5, abs=1e-6)
+    assert rover.box().centre_m[2] == pytest.approx(0.235)
+    assert not physics.in_contact("dog-1")
+    assert physics.collisions == 0
+
+
+def test_a_robot_turns_in_place(make_physics):
+    physics = make_physics(((2.0, 2.5), 0.0))
+    rover = physics.robots["dog-1"]
+    rover.wish = Wish(yaw_rate_radps=pi / 2)
+    physics.advance(240)
+    rover.wish = Wish()
+    physics.advance(120)
+    assert rover.motion().yaw_rad == pytest.approx(pi / 2, abs=0.05)
+    assert rover.motion().position_m == pytest.approx((2.0, 2.5), abs=1e-3)
+
+
+@settings(max_examples=15, deadline=None)
+@given(yaw_rad=st.floats(-pi, pi), speed_mps=st.floats(0.2, 2.0), left_mps=st.floats(-2.0, 2.0))
+def test_no_robot_passes_a_wall(yaw_rad, speed_mps, left_mps):
+    physics = Physics(make_small_home(), [RobotStart("dog-1", (2.5, 2.5), yaw_rad)])
+    rover = physics.robots["dog-1"]
+    rover.wish = Wish(forward_mps=speed_mps, left_mps=left_mps, yaw_rate_radps=0.4)
+    for _ in range(40):
+        physics.advance(60)
+        x, y = rover.motion().position_m
+        # No closer than half the body's narrow side to the outer walls' faces.
+        assert 0.05 + BODY_SIZE_M[1] / 2 - 0.01 < x < 9.95 - BODY_SIZE_M[1] / 2 + 0.01
+        assert 0.05 + BODY_SIZE_M[1] / 2 - 0.01 < y < 4.95 - BODY_SIZE_M[1] / 2 + 0.01
+        assert rover.box().centre_m[2] == pytest.approx(0.235, abs=0.005)
+    physics.close()
+
+
+def test_a_wall_stops_a_robot_and_counts_as_one_collision(make_physics):
+    physics = make_physics(((1.0, 1.0), pi))
+    rover = physics.robots["dog-1"]
+    rover.wish = Wish(forward_mps=0.5)
+    physics.advance(720)
+    assert rover.motion().position_m[0] == pytest.approx(0.05 + BODY_SIZE_M[0] / 2, abs=0.005)
+    assert rover.motion().speed_mps < 0.02
+    assert physics.in_contact("dog-1")
+    assert physics.collisions == 1
+    rover.wish = Wish(forward_mps=-0.5)
+    physics.advance(240)
+    rover.wish = Wish(forward_mps=0.5)
+    physics.advance(480)
+    assert physics.collisions == 2
+
+
+def test_two_robots_pushing_each_other_do_not_interpenetrate(make_physics):
+    physics = make_physics(((2.0, 2.5), 0.0), ((3.5, 2.5), pi))
+    for rover in physics.robots.values():
+        rover.wish = Wish(forward_mps=0.8)
+    for _ in range(16):
+        physics.advance(60)
+        first, second = (rover.motion().position_m for rover in physics.robots.values())
+        assert hypot(second[0] - first[0], second[1] - first[1]) > BODY_SIZE_M[0] - 0.002
+    assert physics.collisions == 1
+
+
+def test_a_parked_robot_is_not_pushed_away(make_physics):
+    physics = make_physics(((2.0, 2.5), 0.0), ((3.5, 2.5), 0.0))
+    physics.robots["dog-1"].wish = Wish(forward_mps=0.5)
+    physics.advance(960)
+    assert physics.robots["dog-2"].motion().position_m[0] < 3.62
+
+
+def test_loose_things_sleep_until_they_are_touched(make_physics):
+    physics = make_physics(((2.0, 1.0), 0.0))
+    before = physics.scene.bodies[BALL].position_m
+    mug_before = physics.scene.bodies[MUG].position_m
+    physics.advance(240)
+    assert physics.scene.bodies[BALL].position_m == before
+    physics.robots["dog-1"].wish = Wish(forward_mps=0.5)
+    physics.advance(960)
+    assert physics.scene.bodies[BALL].position_m[0] > before[0] + 0.3
+    assert physics.scene.bodies[MUG].position_m == mug_before
+    assert physics.collisions == 0
+
+
+def test_sleeping_things_cost_next_to_nothing(make_physics):
+    physics = make_physics(((2.0, 2.5), 0.0))
+    physics.advance(24)
+    assert physics.awake_count() == 1  # the robot itself
+    physics.robots["dog-1"].wish = Wish(forward_mps=0.5, left_mps=-0.5)
+    physics.advance(720)
+    assert physics.awake_count() == 2  # the ball that it pushes
+
+
+def test_the_same_commands_give_the_same_world_to_the_last_bit(make_physics):
+    def episode():
+        physics = make_physics(((2.0, 1.0), 0.0))
+        physics.robots["dog-1"].wish = Wish(forward_mps=0.6, yaw_rate_radps=0.05)
+        physics.advance(1200)
+        return physics.robots["dog-1"].motion(), physics.scene.bodies[BALL].position_m
+
+    assert episode() == episode()
+
+
+def test_the_lidar_measures_the_walls_and_sees_other_robots(make_physics):
+    physics = make_physics(((2.5, 2.5), 0.0), ((2.5, 3.5), 0.0))
+    ranges = sweep(physics, "dog-1")
+
+    def at(angle_rad):
+        return ranges[round((angle_rad - ANGLE_MIN_RAD) / ANGLE_STEP_RAD)]
+
+    assert at(-pi) == pytest.approx(2.45, abs=0.01)
+    assert at(-pi / 2) == pytest.approx(2.45, abs=0.01)
+    assert at(pi / 2) == pytest.approx(1.0 - BODY_SIZE_M[1] / 2, abs=0.01)
+    assert at(0.0) == 0.0  # through the doorway nothing is within 6 m
+    assert physics.scene.bodies[FRIDGE].type == "Fridge"

@@ -1,0 +1,102 @@
+"""F of equation 5 for what robots do: Pickup and Put re-parent, doors and switches change, a vain look denies."""
+
+from hub.facts import handle
+from hub.records import Thing
+from hub.world import World
+from wire.messages.command import Command, Result
+from wire.messages.plan import Action
+
+CHANGES: dict[Action, tuple[str, bool]] = {
+    "open": ("isOpen", True),
+    "close": ("isOpen", False),
+    "toggle_on": ("isToggled", True),
+    "toggle_off": ("isToggled", False),
+    "slice": ("isSliced", True),
+    "clean": ("isDirty", False),
+}
+"""The property of equation 4 that an action makes true or false."""
+_SURE_M2 = 0.05**2
+_SURE_BELIEF = 3.5
+
+
+def apply(world: World, command: Command, result: Result) -> None:
+    """Take the end of a goal into W."""
+    if result.status == "done" or result.code == "already":
+        _succeeded(world, command, result)
+    elif result.status == "failed":
+        _failed(world, command, result)
+
+
+def _succeeded(world: World, command: Command, result: Result) -> None:
+    thing = world.things.get(command.target.id) if command.target is not None else None
+    if command.action == "explore" and command.room is not None:
+        world.areas.search_done(command.room, command.robot, result.stamp_s)
+    elif thing is None:
+        return
+    elif command.action == "pickup":
+        take(world, thing, command.robot, result.stamp_s)
+    elif command.action == "put":
+        item = world.things.get(command.item.id) if command.item is not None else None
+        if item is not None:
+            put(world, item, thing, command.robot, result)
+    elif command.action in CHANGES:
+        name, value = CHANGES[command.action]
+        handle(world.property_of(thing, name), command.robot, value, result.stamp_s)
+    if thing is not None and command.action not in ("goto", "explore"):
+        _touched(thing, command.robot, result.stamp_s)
+
+
+def take(world: World, thing: Thing, robot: str, stamp_s: float) -> None:
+    """Pickup: inv_i <- id_j and rec_j <- id_i."""
+    carrier = world.fleet.robot(robot)
+    carrier.inventory, carrier.holding = thing.id, True
+    world.things.move(thing, (carrier.position_m[0], carrier.position_m[1], 0.6))
+    thing.handled_s, thing.locked = stamp_s, True
+    world.place(thing, robot)
+
+
+def put(world: World, item: Thing, holder: Thing, robot: str, result: Result) -> None:
+    """Put: the payload is cleared and rec_j <- id_k."""
+    carrier = world.fleet.robot(robot)
+    carrier.inventory, carrier.holding = None, False
+    world.things.move(item, result.point_enu_m or (holder.x, holder.y, holder.z))
+    item.xx = item.yy = item.zz = _SURE_M2
+    item.xy = 0.0
+    item.handled_s, item.locked = result.stamp_s, False
+    _touched(item, robot, result.stamp_s)
+    world.place(item, holder.id)
+
+
+def _touched(thing: Thing, robot: str, stamp_s: float) -> None:
+    thing.belief = max(thing.belief, _SURE_BELIEF)
+    thing.stamp_s, thing.last_source = max(thing.stamp_s, stamp_s), robot
+    thing.first_hand_s = stamp_s
+    thing.verified = True
+    thing.version += 1
+
+
+def _failed(world: World, command: Command, result: Result) -> None:
+    """What a failure teaches: the thing is not there, or the door is shut."""
+    thing = world.things.get(command.target.id) if command.target is not None else None
+    if thing is None:
+        return
+    if result.code == "not_there":
+        for sight in thing.sights.values():
+            thing.belief -= max(sight.support, 0.0)
+            sight.support = min(sight.support, 0.0)
+        thing.belief = min(thing.belief, -1.0) - 1.5
+        thing.version += 1
+        world.things.touch(thing)
+        if thing.receptacle not in world.fleet.robots:
+            world.things.remove(thing)
+    elif result.code == "closed":
+        shut = _around(world, thing)
+        if shut is not None:
+            handle(world.property_of(shut, "isOpen"), command.robot, False, result.stamp_s)
+
+
+def _around(world: World, thing: Thing) -> Thing | None:
+    """The closable thing that a 'closed' failure is about: the target itself or its receptacle."""
+    if "isOpen" in thing.facts:
+        return thing
+    return world.things.get(thing.receptacle)

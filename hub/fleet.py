@@ -1,0 +1,141 @@
+"""S^R of equation 1: every robot as it reports itself, with what the hub knows it carries."""
+
+from math import hypot
+
+from hub.floor import FloorPlan
+from wire.frames import yaw_deg
+from wire.messages.command import DeviceCard, RobotReport
+from wire.messages.world import RobotState, RobotStatus
+from wire.model import Vec2, Vec3
+
+_LOST_S = 3.0
+_BODY_M = 0.45
+
+
+class Robot:
+    """One robot. `skills` and the body come from its card; the rest from its reports."""
+
+    __slots__ = (
+        "action_steps",
+        "card",
+        "goal_id",
+        "holding",
+        "id",
+        "inventory",
+        "path_m",
+        "position_m",
+        "present",
+        "shown",
+        "stamp_s",
+        "status",
+        "travelled_m",
+        "yaw_rad",
+    )
+
+    def __init__(self, id: str) -> None:
+        self.id = id
+        self.card: DeviceCard | None = None
+        self.position_m: Vec3 = (0.0, 0.0, 0.0)
+        self.yaw_rad = 0.0
+        self.status: RobotStatus = "lost"
+        self.present = False
+        self.holding = False
+        self.inventory: str | None = None
+        self.goal_id: str | None = None
+        self.path_m: tuple[Vec2, ...] = ()
+        self.travelled_m = 0.0
+        self.action_steps = 0
+        self.stamp_s = -1.0
+        self.shown: RobotState | None = None
+
+    @property
+    def xy(self) -> Vec2:
+        return (self.position_m[0], self.position_m[1])
+
+    @property
+    def skills(self) -> tuple[str, ...]:
+        return tuple(skill.name for skill in self.card.skills) if self.card is not None else ()
+
+    @property
+    def radius_m(self) -> float:
+        return self.card.radius_m if self.card is not None and self.card.radius_m > 0.0 else 0.38
+
+
+class Fleet:
+    """All robots that have been heard of."""
+
+    def __init__(self, floor: FloorPlan) -> None:
+        self._floor = floor
+        self.robots: dict[str, Robot] = {}
+
+    def robot(self, id: str) -> Robot:
+        known = self.robots.get(id)
+        if known is None:
+            known = self.robots[id] = Robot(id)
+        return known
+
+    def take(self, report: RobotReport) -> Robot:
+        robot = self.robot(report.robot)
+        robot.position_m, robot.yaw_rad = report.position_enu_m, report.yaw_rad
+        robot.status, robot.holding, robot.goal_id = report.status, report.holding, report.goal_id
+        robot.path_m = report.path_m
+        robot.travelled_m, robot.action_steps = report.travelled_m, report.action_steps
+        robot.stamp_s, robot.present = report.stamp_s, True
+        return robot
+
+    def take_card(self, card: DeviceCard) -> None:
+        self.robot(card.id).card = card
+
+    def gone(self, id: str) -> None:
+        """Its process went away."""
+        if id in self.robots:
+            self.robots[id].present = False
+            self.robots[id].status = "lost"
+
+    def check(self, now_s: float) -> list[str]:
+        """Robots that have fallen silent since the last look."""
+        silent = [r.id for r in self.robots.values() if r.present and now_s - r.stamp_s > _LOST_S]
+        for id in silent:
+            self.gone(id)
+        return silent
+
+    def near(self, x: float, y: float) -> bool:
+        """Whether a robot's body is at this place."""
+        return any(hypot(r.position_m[0] - x, r.position_m[1] - y) < _BODY_M for r in self.robots.values() if r.present)
+
+    def states(self) -> tuple[RobotState, ...]:
+        return tuple(self._state(robot) for robot in self._ordered())
+
+    def changes(self) -> tuple[RobotState, ...]:
+        """Robots that a reader would see differently than at the last call."""
+        changed = []
+        for robot in self._ordered():
+            state = self._state(robot)
+            if robot.shown is None or _differs(robot.shown, state):
+                robot.shown = state
+                changed.append(state)
+        return tuple(changed)
+
+    def _ordered(self) -> list[Robot]:
+        return [self.robots[id] for id in sorted(self.robots) if self.robots[id].stamp_s >= 0.0]
+
+    def _state(self, robot: Robot) -> RobotState:
+        return RobotState(
+            id=robot.id,
+            kind=robot.card.kind if robot.card is not None else "robot",
+            position_enu_m=robot.position_m,
+            yaw_deg=yaw_deg(robot.yaw_rad),
+            status=robot.status,
+            inventory=robot.inventory,
+            skills=robot.skills,
+            stamp_s=robot.stamp_s,
+            room=self._floor.room_at(*robot.xy),
+            path_m=robot.path_m,
+            goal_id=robot.goal_id,
+            travelled_m=robot.travelled_m,
+            action_steps=robot.action_steps,
+        )
+
+
+def _differs(a: RobotState, b: RobotState) -> bool:
+    return a.model_copy(update={"stamp_s": b.stamp_s}) != b or b.stamp_s - a.stamp_s > 1.0

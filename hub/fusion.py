@@ -1,0 +1,252 @@
+"""F of equation 5 for what is seen: one thing from many looks, first-hand sight before cameras, doubt growing with age.
+
+The loop over a batch is the hub's hottest: a track already bound to a thing is checked and taken in without a search.
+"""
+
+from collections.abc import Callable
+from math import inf
+
+from hub import association
+from hub.facts import claim
+from hub.kinds import shape
+from hub.records import Fact, Sight, Thing
+from hub.things import Things
+from hub.trust import Trust
+from wire.messages.observation import ObjectObservation, ObservationBatch
+from wire.model import Vec3
+
+CLOSE_M = 2.6
+"""A robot nearer than this sees first-hand."""
+_FIRST_HAND_S = 30.0
+_HEARSAY = 16.0
+"""A camera's variances count this much larger while a robot's first-hand sight is fresh."""
+_TRACK_GATE = 16.0
+_FLOOR_M2 = {"robot": 0.02**2, "cctv": 0.05**2, "device": 0.05**2}
+"""Errors of one source repeat from picture to picture: no number of them makes the place surer than this."""
+_STEP = {"robot": 1.7, "cctv": 0.8, "device": 2.0}
+_CAP = {"robot": 4.2, "cctv": 2.4, "device": 3.0}
+
+
+class Source:
+    """What the fusion remembers of one source."""
+
+    __slots__ = (
+        "boot_id",
+        "cap",
+        "floor_m2",
+        "id",
+        "kind",
+        "robot",
+        "step",
+        "tracks",
+        "weight",
+    )
+
+    def __init__(self, id: str, kind: str) -> None:
+        self.id, self.kind, self.robot = id, kind, kind == "robot"
+        self.tracks: dict[str, Thing] = {}
+        self.boot_id = ""
+        self.floor_m2, self.step, self.cap = _FLOOR_M2[kind], _STEP[kind], _CAP[kind]
+        self.weight = 3.0 if self.robot else 1.0
+
+
+class Fusion:
+    """Takes batches into a set of things."""
+
+    def __init__(self, things: Things, trust: Trust, robot_near: Callable[[float, float], bool]) -> None:
+        self.things, self.trust = things, trust
+        self.sources: dict[str, Source] = {}
+        self._robot_near = robot_near
+        self._mark = 0
+
+    def source(self, id: str, kind: str) -> Source:
+        known = self.sources.get(id)
+        if known is None:
+            known = self.sources[id] = Source(id, kind)
+        return known
+
+    def take(self, batch: ObservationBatch) -> int:
+        """Take one picture in; returns the mark that the things seen in it now carry."""
+        source = self.source(batch.source, batch.kind)
+        if source.boot_id != batch.boot_id:
+            source.boot_id = batch.boot_id
+            source.tracks.clear()  # a restarted source begins its names anew
+        self._mark = mark = self._mark + 1
+        stamp_s = batch.stamp_s
+        origin = batch.view.origin_enu_m if batch.view is not None and source.robot else None
+        late: list[ObjectObservation] = []
+        tracks, refine = source.tracks, self._refine
+        for seen in batch.objects:
+            thing = tracks.get(seen.track)
+            if thing is None or thing.mark >= mark or not refine(thing, seen, source, stamp_s, mark, origin):
+                late.append(seen)
+        for seen in sorted(late, key=lambda s: -s.confidence) if late else ():
+            self._associate(seen, source, stamp_s, mark, origin)
+        if len(tracks) > 2000:
+            source.tracks = {track: thing for track, thing in tracks.items() if thing.id in self.things.by_id}
+        return mark
+
+    def _associate(
+        self,
+        seen: ObjectObservation,
+        source: Source,
+        stamp_s: float,
+        mark: int,
+        origin: Vec3 | None,
+    ) -> None:
+        thing = association.find(self.things, seen, source.id, stamp_s, mark)
+        former = source.tracks.get(seen.track)
+        if thing is None and former is not None and former.mark < mark and self._moved(former, seen):
+            thing = former
+            _restart(thing, seen)
+            self.things.settle(thing)
+        if thing is None:
+            if self._robot_near(seen.position_enu_m[0], seen.position_enu_m[1]):
+                return  # part of a robot, or what it carries, taken for something new
+            thing = self.things.new(seen.type, seen.position_enu_m, stamp_s)
+            _restart(thing, seen)
+        source.tracks[seen.track] = thing
+        self._refine(thing, seen, source, stamp_s, mark, origin, gate=inf)
+
+    def _moved(self, thing: Thing, seen: ObjectObservation) -> bool:
+        """Whether a source's lasting track says that a thing has moved by itself (or was carried by somebody)."""
+        return (
+            thing.id in self.things.by_id
+            and not thing.locked
+            and thing.type == seen.type
+            and shape(thing.type).kind != "static"
+            and seen.confidence >= 0.5
+        )
+
+    def _refine(
+        self,
+        thing: Thing,
+        seen: ObjectObservation,
+        source: Source,
+        stamp_s: float,
+        mark: int,
+        origin: Vec3 | None,
+        gate: float = _TRACK_GATE,
+    ) -> bool:
+        """Inverse-covariance fusion of one look (a Kalman step); False when it cannot be of this thing."""
+        x, y, z = seen.position_enu_m
+        rxx, rxy, ryy, rzz = seen.covariance_m2
+        known = shape(thing.type)
+        type_same = seen.type == thing.type
+        if not type_same and gate != inf and seen.type not in known.confusable:
+            return False
+        if thing.locked:
+            return self._absorb(thing, x, y, mark, gate)
+        grown = known.walk_m2_per_s * (stamp_s - thing.stamp_s) if stamp_s > thing.stamp_s else 0.0
+        floor = source.floor_m2
+        pxx, pxy, pyy, pzz = thing.xx + grown, thing.xy, thing.yy + grown, thing.zz + grown
+        dx, dy, dz = x - thing.x, y - thing.y, z - thing.z
+        rxx += floor
+        ryy += floor
+        rzz += floor
+        sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy
+        wide = known.gate_m2
+        wxx, wyy = sxx + wide, syy + wide
+        if wyy * dx * dx - 2.0 * sxy * dx * dy + wxx * dy * dy > gate * (wxx * wyy - sxy * sxy):
+            return False
+        if source.robot:
+            if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
+                pxx, pyy, pzz = max(pxx, 4.0 * rxx), max(pyy, 4.0 * ryy), max(pzz, 4.0 * rzz)
+                sxx, syy = pxx + rxx, pyy + ryy
+            self._first_hand(thing, seen, stamp_s, origin)
+        elif stamp_s - thing.first_hand_s < _FIRST_HAND_S:
+            rxx, rxy, ryy, rzz = _HEARSAY * rxx, _HEARSAY * rxy, _HEARSAY * ryy, _HEARSAY * rzz
+            sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy
+        det = sxx * syy - sxy * sxy
+        a, b = (pxx * syy - pxy * sxy) / det, (pxy * sxx - pxx * sxy) / det
+        c, d = (pxy * syy - pyy * sxy) / det, (pyy * sxx - pxy * sxy) / det
+        thing.x += a * dx + b * dy
+        thing.y += c * dx + d * dy
+        thing.xx = max(pxx - a * pxx - b * pxy, floor)
+        thing.xy = pxy - a * pxy - b * pyy
+        thing.yy = max(pyy - c * pxy - d * pyy, floor)
+        k = pzz / (pzz + rzz)
+        thing.z += k * dz
+        thing.zz = max(pzz - k * pzz, floor)
+        self._credit(thing, seen, source, stamp_s, type_same)
+        thing.mark = mark
+        if stamp_s >= thing.stamp_s:
+            thing.stamp_s = stamp_s
+            thing.last_source = source.id
+        if not thing.touched:
+            thing.touched = True
+            self.things.touched.append(thing)
+        return True
+
+    def _absorb(self, thing: Thing, x: float, y: float, mark: int, gate: float) -> bool:
+        """A sight of something in a hand or behind a door: it is that thing, and says nothing new."""
+        if (x - thing.x) ** 2 + (y - thing.y) ** 2 > gate * association.LOCKED_M2:
+            return False
+        thing.mark = mark
+        return True
+
+    def _credit(self, thing: Thing, seen: ObjectObservation, source: Source, stamp_s: float, type_same: bool) -> None:
+        """Existence, type and properties: what this look says besides the place."""
+        sight = thing.sights.get(source.id)
+        if sight is None:
+            sight = thing.sights[source.id] = Sight(source.robot)
+        confidence = seen.confidence
+        sight.confidence, sight.stamp_s = confidence, stamp_s
+        sight.x, sight.y, sight.z = seen.position_enu_m
+        sight.hits += 1
+        sight.absent_looks = 0
+        thing.hits += 1
+        if sight.support < source.cap:
+            self._support(thing, sight, source, confidence)
+        if not type_same or thing.hits < 10:
+            self._vote(thing, seen.type, confidence * source.weight)
+        facts, id = thing.facts, source.id
+        for name, probability in seen.props.items():
+            fact = facts.get(name)
+            if fact is None:
+                fact = facts[name] = Fact()
+            claim(fact, id, probability, stamp_s)
+
+    def _support(self, thing: Thing, sight: Sight, source: Source, confidence: float) -> None:
+        cap = source.cap
+        if not source.robot:
+            cap *= min(max(self.trust.odds(source.id) / _USUAL_ODDS, 0.15), 1.3)
+        after = min(sight.support + source.step * confidence, max(cap, sight.support))
+        thing.belief += after - sight.support
+        sight.support = after
+
+    def _vote(self, thing: Thing, type: str, weight: float) -> None:
+        votes = thing.votes
+        votes[type] = total = votes.get(type, 0.0) + weight
+        if type != thing.type and total > votes.get(thing.type, 0.0):
+            thing.type = type
+            thing.version += 1
+
+    def _first_hand(self, thing: Thing, seen: ObjectObservation, stamp_s: float, origin: Vec3 | None) -> None:
+        if origin is None or seen.confidence < 0.5:
+            return
+        x, y, _ = seen.position_enu_m
+        if (x - origin[0]) ** 2 + (y - origin[1]) ** 2 > (CLOSE_M + shape(thing.type).half_diagonal_m) ** 2:
+            return
+        if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
+            self._judge(thing, stamp_s)
+        thing.first_hand_s = stamp_s
+        if not thing.verified:
+            thing.verified = True
+            thing.version += 1
+
+    def _judge(self, thing: Thing, stamp_s: float) -> None:
+        """A robot confirms what others had claimed lately."""
+        for id, sight in thing.sights.items():
+            if not sight.robot and sight.support > 0.0 and stamp_s - sight.stamp_s < _FIRST_HAND_S:
+                self.trust.score(id, right=True)
+
+
+def _restart(thing: Thing, seen: ObjectObservation) -> None:
+    """Begin the place of a thing anew from one look."""
+    thing.x, thing.y, thing.z = seen.position_enu_m
+    thing.xx, thing.xy, thing.yy, thing.zz = (9.0 * v for v in seen.covariance_m2)
+
+
+_USUAL_ODDS = 1.386
+"""Log-odds of a source nobody has judged yet."""

@@ -1,0 +1,92 @@
+"""The set of things, found by id or by place."""
+
+import random
+from collections.abc import Iterable, Iterator
+from math import floor
+
+from hub.records import Thing
+
+_CELL_M = 1.0
+_STRIDE = 100_003
+FORGOTTEN = 1 << 62
+"""The mark of a removed thing: later than any picture."""
+
+
+class Things:
+    """Every object that the hub believes in, in a grid of one-metre cells. Ids are opaque and the hub's own."""
+
+    def __init__(self, seed: int) -> None:
+        self._random = random.Random(seed)
+        self._cells: dict[int, list[Thing]] = {}
+        self.by_id: dict[str, Thing] = {}
+        self.touched: list[Thing] = []
+        """Those that changed since the last delta."""
+        self.removed: list[str] = []
+
+    def __iter__(self) -> Iterator[Thing]:
+        return iter(self.by_id.values())
+
+    def __len__(self) -> int:
+        return len(self.by_id)
+
+    def get(self, id: str | None) -> Thing | None:
+        return None if id is None else self.by_id.get(id)
+
+    def new(self, type: str, position_m: tuple[float, float, float], stamp_s: float) -> Thing:
+        thing = Thing(self._new_id(), type, position_m, stamp_s)
+        self.add(thing)
+        return thing
+
+    def add(self, thing: Thing) -> None:
+        self.by_id[thing.id] = thing
+        thing.cell = _cell(thing.x, thing.y)
+        self._cells.setdefault(thing.cell, []).append(thing)
+        self.touch(thing)
+
+    def _new_id(self) -> str:
+        while True:
+            id = f"obj-{self._random.randrange(16**4):04x}"
+            if id not in self.by_id:
+                return id
+
+    def remove(self, thing: Thing) -> None:
+        """Forget a thing, and everything's being in it. Tracks bound to it are free again."""
+        thing.mark = FORGOTTEN
+        del self.by_id[thing.id]
+        self._cells[thing.cell].remove(thing)
+        if thing.shown >= 0:
+            self.removed.append(thing.id)
+        for other in self.by_id.values():
+            if other.receptacle == thing.id:
+                other.receptacle = None
+                other.version += 1
+                self.touch(other)
+
+    def touch(self, thing: Thing) -> None:
+        if not thing.touched:
+            thing.touched = True
+            self.touched.append(thing)
+
+    def move(self, thing: Thing, position_m: tuple[float, float, float]) -> None:
+        thing.x, thing.y, thing.z = position_m
+        self.settle(thing)
+
+    def settle(self, thing: Thing) -> None:
+        """Put a thing whose position was changed into its cell."""
+        cell = _cell(thing.x, thing.y)
+        if cell != thing.cell:
+            self._cells[thing.cell].remove(thing)
+            thing.cell = cell
+            self._cells.setdefault(cell, []).append(thing)
+
+    def near(self, x: float, y: float, radius_m: float) -> Iterable[Thing]:
+        """Things in the cells that a circle touches (some lie outside of it)."""
+        low_x, high_x = floor((x - radius_m) / _CELL_M), floor((x + radius_m) / _CELL_M)
+        low_y, high_y = floor((y - radius_m) / _CELL_M), floor((y + radius_m) / _CELL_M)
+        for ix in range(low_x, high_x + 1):
+            for iy in range(low_y, high_y + 1):
+                yield from self._cells.get(ix * _STRIDE + iy, ())
+
+
+def _cell(x: float, y: float) -> int:
+    return floor(x / _CELL_M) * _STRIDE + floor(y / _CELL_M)

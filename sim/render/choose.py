@@ -1,6 +1,9 @@
 """Which renderer draws the building: OpenGL where it starts, PyBullet's own otherwise."""
 
 import logging
+import subprocess
+import sys
+from functools import lru_cache
 from typing import Literal
 
 from sim.render.instances import PartsOf
@@ -9,6 +12,9 @@ from sim.scene import Scene
 
 Choice = Literal["auto", "gl", "bullet"]
 
+TRIAL = "import moderngl; moderngl.create_context(standalone=True, require=330, backend='egl')"
+REMEDY = "install the `sim` extra, libegl1 and libgl1-mesa-dri"
+
 _log = logging.getLogger(__name__)
 
 
@@ -16,21 +22,24 @@ def make_renderer(scene: Scene, choice: Choice, parts_of: PartsOf) -> Renderer:
     """The renderer asked for; `auto` falls back to PyBullet when OpenGL does not start."""
     if choice == "bullet":
         return _bullet(scene, parts_of)
-    try:
-        return _gl(scene, parts_of)
-    except RenderError as error:
-        if choice == "gl":
-            raise
-        _log.warning("Cameras are drawn by PyBullet, which is slower: %s", error)
-        return _bullet(scene, parts_of)
+    fault = gl_fault()
+    if fault is None:
+        from sim.render.gl import GlRenderer
+
+        return GlRenderer(scene, parts_of)
+    if choice == "gl":
+        raise RenderError(f"OpenGL 3.3 does not start: {fault}; {REMEDY}")
+    _log.warning("Cameras are drawn by PyBullet, slowly, as OpenGL 3.3 does not start: %s; %s", fault, REMEDY)
+    return _bullet(scene, parts_of)
 
 
-def _gl(scene: Scene, parts_of: PartsOf) -> Renderer:
-    try:
-        from sim.render.gl import GlRenderer, open_context
-    except ImportError as error:
-        raise RenderError(f"OpenGL cannot be used: {error}; install the `sim` extra") from error
-    return GlRenderer(open_context(), scene, parts_of)
+@lru_cache(maxsize=1)
+def gl_fault() -> str | None:
+    """Why OpenGL does not start here, or None. Tried in a process of its own, for a driver may crash."""
+    done = subprocess.run([sys.executable, "-c", TRIAL], capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return None
+    return (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
 
 
 def _bullet(scene: Scene, parts_of: PartsOf) -> Renderer:

@@ -63,7 +63,7 @@ void main() {
     vec3 light = (vec3(ambient) + 0.55 * direct * warm + 0.16 * window) * corner_light(n);
     vec3 base = colour * SAMPLE;
     out_rgb = vec4(mix(base * light, base, glow), 1.0);
-    out_owner = pixel_owner;
+    out_owner = pixel_owner + 1;    // 0 is what a cleared picture holds: nothing
 }
 """
 

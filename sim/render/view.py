@@ -107,4 +107,4 @@ def _grouped(rows: Rows, mesh: NDArray[np.int64]) -> list[Batch]:
 def depth_from_window(window: NDArray[np.float32]) -> NDArray[np.float32]:
     """Metres along the optical axis from window depth 0..1; 0 where nothing was drawn."""
     metres = np.float32(NEAR_M * FAR_M) / (np.float32(FAR_M) - np.float32(FAR_M - NEAR_M) * window)
-    return np.where(window >= 1.0, np.float32(0.0), metres)
+    return np.where(window > 1.0 - 1e-6, np.float32(0.0), metres)

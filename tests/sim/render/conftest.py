@@ -5,10 +5,11 @@ from math import pi
 import pytest
 
 from sim import textures
+from sim.render.instances import PartsOf
 from sim.scene import Body, CctvPose, Door, Part, Room, Scene, Wall
 
 
-def parts_of(body: Body) -> list[Part]:
+def _parts(body: Body) -> list[Part]:
     """A box, cylinder, sphere or cone as large as the body; a television is a box with a screen that can be lit."""
     depth, width, height = body.size_m
     middle = (0.0, 0.0, height / 2.0)
@@ -47,6 +48,11 @@ def _bodies() -> dict[int, Body]:
 
 def _camera(name: str, room: str, x: float, y: float, yaw_rad: float) -> CctvPose:
     return CctvPose(name, room, (x, y, 2.3), yaw_rad, 0.55, 640, 480, 320.0)
+
+
+@pytest.fixture
+def parts_of() -> PartsOf:
+    return _parts
 
 
 @pytest.fixture

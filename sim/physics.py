@@ -22,6 +22,7 @@ EVERYTHING = 0x7FFF
 DENSITY_KGPM3 = 150.0
 LOOSE_MASS_KG = (0.05, 3.0)
 CONTACT_M = 0.001
+MOVED_M = 1e-4
 EPISODE_GAP_S = 0.25
 """Contacts of the same pair that are nearer in time than this are one collision."""
 CONTACT_EVERY = 3
@@ -45,6 +46,8 @@ class Physics:
         self.scene = scene
         self.step_count = 0
         self.collisions = 0
+        self.moved: set[int] = set()
+        """Keys of what has moved or changed since somebody emptied this set."""
         self._bullet = open_bullet()
         self._last_contact: dict[tuple[str, str], int] = {}
         self._touching: set[str] = set()
@@ -146,9 +149,8 @@ class Physics:
             body = self.scene.bodies[key]
             (x, y, z), turn = self._bullet.getBasePositionAndOrientation(bullet_body)
             base_m = (x, y, z - body.size_m[2] / 2.0)
-            moved = max(abs(a - b) for a, b in zip(base_m, body.position_m, strict=True))
-            if moved > 1e-4:
-                move_with_contents(self.scene, key, base_m, 2.0 * atan2(turn[2], turn[3]))
+            if max(abs(a - b) for a, b in zip(base_m, body.position_m, strict=True)) > MOVED_M:
+                self.moved |= move_with_contents(self.scene, key, base_m, 2.0 * atan2(turn[2], turn[3]))
 
     def awake_count(self) -> int:
         """How many bodies the solver is busy with."""
@@ -166,14 +168,16 @@ class Physics:
         return [hit[2] for hit in hits]
 
 
-def move_with_contents(scene: Scene, key: int, position_m: Vec3, yaw_rad: float) -> None:
-    """Put a thing somewhere else, together with all that rests in or on it."""
+def move_with_contents(scene: Scene, key: int, position_m: Vec3, yaw_rad: float) -> set[int]:
+    """Put a thing somewhere else, together with all that rests in or on it; returns the keys of what moved."""
     body = scene.bodies[key]
     before, after = Box(body.position_m, (0.0, 0.0, 0.0), body.yaw_rad), Box(position_m, (0.0, 0.0, 0.0), yaw_rad)
     body.position_m, body.yaw_rad = position_m, yaw_rad
+    moved = {key}
     for child_key in sorted(scene.bodies):
         child = scene.bodies[child_key]
         if child.parent == key:
             offset_m = before.local(child.position_m)
             turned = child.yaw_rad + yaw_rad - before.yaw_rad
-            move_with_contents(scene, child_key, after.site(offset_m), turned)
+            moved |= move_with_contents(scene, child_key, after.site(offset_m), turned)
+    return moved

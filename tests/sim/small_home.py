@@ -1,7 +1,11 @@
 """Two rooms with a doorway, a table with a mug, a fridge with an apple in it, a ball and a box on the floor."""
 
+from math import degrees
+from typing import Any
+
 from sim.scene import Body, CctvPose, Door, Room, Scene, Vec3, Wall
 from wire.catalogue import catalogue
+from wire.site import Site, parse_site
 
 APPLE, TABLE, MUG, FRIDGE, BALL, BOX, TELEVISION, LAPTOP, MICROWAVE, KNIFE, BREAD, PLATE = range(1, 13)
 
@@ -53,3 +57,37 @@ def _body(
     **props: bool,
 ) -> Body:
     return Body(key, kind, position_m, yaw_rad, size_m or catalogue()[kind].size_m, key, dict(props), parent)
+
+
+def make_small_site(*robots: str, **sim: Any) -> Site:
+    """A site file for the small home, with the first robots at its starts."""
+    scene = make_small_home()
+    starts = zip(robots, scene.robot_starts, strict=False)
+    return parse_site(
+        {
+            "name": "small",
+            "room": [
+                {"id": r.id, "name": r.name, "kind": r.kind, "polygon_m": [list(map(float, p)) for p in r.polygon_m]}
+                for r in scene.rooms
+            ],
+            "camera": [
+                {
+                    "id": c.id,
+                    "position_enu_m": list(c.position_m),
+                    "yaw_deg": degrees(c.yaw_rad),
+                    "tilt_down_deg": degrees(c.tilt_down_rad),
+                    "width_px": c.width_px,
+                    "height_px": c.height_px,
+                    "focal_px": c.focal_px,
+                }
+                for c in scene.cameras
+            ],
+            "robot": [
+                {"id": id, "kind": "quadruped", "start_m": list(at), "start_yaw_deg": degrees(yaw_rad)}
+                for id, (at, yaw_rad) in starts
+            ],
+            "process": [],
+            "sim": {"seed": scene.seed, **sim},
+        },
+        "small.toml",
+    )

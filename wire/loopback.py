@@ -135,6 +135,7 @@ class LoopbackMesh:
 
     def say(self, topic: str, message: Message, id: str = "", role: Role = "console") -> None:
         """Publish from outside the mesh: arrives with the next tick."""
+        self._start_arrivals()
         self._operator.role = role
         self._operator.publish(topic, message, id)
 

@@ -1,0 +1,151 @@
+"""Three ways to step a core: by the wall clock, as a follower of somebody's ticks, and as the owner of the ticks."""
+
+import logging
+import time
+from collections.abc import Callable, Iterable
+
+from wire.bus import Core, Event, Received
+from wire.clock import Pace, Roll, WallClock
+from wire.codec import M, WireError, decode
+from wire.letter import Kind, Letter
+from wire.messages.clock import Tick, TickDone
+from wire.node import ZenohNode
+from wire.pulse import Pulse
+
+log = logging.getLogger("clock")
+
+Stopping = Callable[[], bool]
+WAIT_S = 0.2
+"""How long a signal to stop may go unnoticed."""
+GATHER_S = 30.0
+"""How long the first tick waits for processes that should be there."""
+HANG_S = 5.0
+
+
+def drive_wall(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float) -> None:
+    """Step every `step_s`, and at once when something comes."""
+    clock = WallClock()
+    core.start(node)
+    node.announce()
+    while not stopping():
+        events = node.collect(step_s)
+        core.step(clock.now_s(), events)
+        pulse.beat(clock.now_s())
+
+
+def drive_spectator(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float) -> None:
+    """Look on in lockstep without holding time up: events as they come, at the time of the newest tick."""
+    now_s = 0.0
+    node.subscribe("tick")
+    core.start(node)
+    node.announce()
+    while not stopping():
+        events: list[Event] = []
+        for event in node.collect(step_s):
+            if isinstance(event, Received) and isinstance(event.message, Tick):
+                now_s = event.message.now_s
+            else:
+                events.append(event)
+        core.step(now_s, events)
+        pulse.beat(now_s)
+
+
+def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping) -> None:
+    """One step per tick, then say that it is done."""
+    node.subscribe("tick")
+    core.start(node)
+    node.announce()
+    while not stopping():
+        tick = _newest_tick(node, _sort_in(node, "tick", WAIT_S))
+        if tick is None:
+            continue
+        node.tick, node.now_s = tick.tick, tick.now_s
+        core.step(tick.now_s, node.mailbox.at_tick(tick.tick, tick.now_s))
+        pulse.beat(tick.now_s)
+        node.publish("tick_done", TickDone(tick=tick.tick, follower=node.id), node.id)
+
+
+def drive_owner(
+    node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float, speed: float, followers: Iterable[str]
+) -> None:
+    """Step, tell the tick, and wait until every follower that is there is done with it."""
+    roll, pace = Roll(followers), Pace(speed)
+    node.subscribe("tick_done")
+    node.track_presence()
+    core.start(node)
+    node.announce()
+    _gather(node, roll, stopping)
+    tick = 0
+    while not stopping():
+        node.tick, node.now_s = tick, tick * step_s
+        core.step(node.now_s, node.mailbox.at_tick(tick, node.now_s))
+        pulse.beat(node.now_s)
+        roll.begin(tick)
+        node.publish("tick", Tick(tick=tick, now_s=node.now_s, step_s=step_s))
+        _wait_for(node, roll, stopping)
+        tick += 1
+        _keep_pace(node, roll, pace, tick * step_s)
+
+
+def _sort_in(node: ZenohNode, control_topic: str, timeout_s: float) -> list[Letter]:
+    """Pick up the post: the letters of one topic and of presence at once, all others when they are due."""
+    control, others = [], []
+    for letter in node.inbox.take(timeout_s):
+        if letter.kind is Kind.MESSAGE and letter.name == control_topic:
+            control.append(letter)
+            continue
+        if letter.kind is Kind.PRESENCE:
+            control.append(letter)
+        if letter.kind is not Kind.PRESENCE or node.watching:
+            others.append(letter)
+    node.mailbox.hold(others)
+    return control
+
+
+def _newest_tick(node: ZenohNode, letters: Iterable[Letter]) -> Tick | None:
+    """A follower that was away skips the ticks that went on without it."""
+    ticks = [tick for letter in letters if (tick := _read(node, letter, Tick)) is not None]
+    return ticks[-1] if ticks else None
+
+
+def _call_roll(node: ZenohNode, roll: Roll, timeout_s: float) -> None:
+    for letter in _sort_in(node, "tick_done", timeout_s):
+        if letter.kind is Kind.PRESENCE:
+            roll.presence(letter.id, letter.alive)
+        elif (done := _read(node, letter, TickDone)) is not None:
+            roll.done(letter.id, done.tick)
+
+
+def _read(node: ZenohNode, letter: Letter, message_type: type[M]) -> M | None:
+    if letter.kind is not Kind.MESSAGE:
+        return None
+    try:
+        return decode(message_type, letter.payload, letter.name)
+    except WireError as error:
+        node.mailbox.warn(str(error))
+        return None
+
+
+def _gather(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
+    """Before the first tick: everybody hears it, whoever starts first."""
+    began_s = time.monotonic()
+    while roll.absent and not stopping():
+        _call_roll(node, roll, WAIT_S)
+        if time.monotonic() - began_s > GATHER_S:
+            log.warning("starting without %s: not there after %.0f s", ", ".join(roll.absent), GATHER_S)
+            return
+
+
+def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
+    began_s, warned = time.monotonic(), False
+    while (roll.waiting or roll.deserted) and not stopping():
+        _call_roll(node, roll, WAIT_S)
+        if not warned and time.monotonic() - began_s > HANG_S:
+            warned = True
+            whom = ", ".join(roll.waiting) or "any follower to come back"
+            log.warning("time stands still: waiting for %s since %.0f s", whom, HANG_S)
+
+
+def _keep_pace(node: ZenohNode, roll: Roll, pace: Pace, now_s: float) -> None:
+    while (ahead_s := pace.ahead_s(now_s, time.monotonic())) > 1e-4:
+        _call_roll(node, roll, min(ahead_s, WAIT_S))

@@ -1,0 +1,92 @@
+"""How a process reaches the mesh: the router's endpoint, its name and password, and Zenoh's settings for it."""
+
+import os
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wire.site import Site
+
+LEASE_MS = 1000
+BLOCKED_LINK_US = 1_000_000
+"""A reader that takes nothing for this long while its queue is full is cut off, so that it holds up nobody else."""
+MAX_MESSAGE_BYTES = 16_000_000
+CREDENTIALS_VARIABLE = "R2X_CREDENTIALS"
+
+
+class MeshError(Exception):
+    """The mesh cannot be reached or entered; one sentence with the place and the remedy."""
+
+
+@dataclass(frozen=True)
+class Link:
+    endpoint: str
+    realm: str
+    user: str = ""
+    password: str = ""
+    timeout_s: float = 10.0
+
+
+def credentials_dir(site: Site) -> Path:
+    """Where the names and passwords of a secured site lie on this machine."""
+    return Path(os.environ.get(CREDENTIALS_VARIABLE) or Path(".run") / site.name / "credentials")
+
+
+def link_for(site: Site, process: str, timeout_s: float = 10.0) -> Link:
+    """The link of one process of this site."""
+    if not site.router.secured:
+        return Link(site.router.endpoint, site.realm, timeout_s=timeout_s)
+    folder = credentials_dir(site)
+    # a console's id is `console-<something>`; all of them share the user `console`
+    candidates = (process, process.partition("-")[0])
+    for user in candidates:
+        file = folder / user
+        if file.is_file():
+            return Link(site.router.endpoint, site.realm, user, _password(file), timeout_s)
+    raise MeshError(
+        f"site {site.name} is secured and there is no password for {process} in {folder}; "
+        f"start the mesh there, or set {CREDENTIALS_VARIABLE} to the folder with this host's passwords"
+    )
+
+
+def _password(file: Path) -> str:
+    if stat.S_IMODE(file.stat().st_mode) & 0o077:
+        raise MeshError(f"{file} can be read by others; `chmod 600 {file}` first")
+    return file.read_text().strip()
+
+
+def common_config() -> dict[str, Any]:
+    """What routers and clients share. Without priorities, whatever is sent first arrives first: lockstep needs that."""
+    return {
+        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
+        "transport": {
+            "unicast": {"qos": {"enabled": False}},
+            "shared_memory": {"enabled": False},
+            "link": {
+                "protocols": ["tcp"],
+                "tx": {
+                    "lease": LEASE_MS,
+                    "keep_alive": 4,
+                    "queue": {"congestion_control": {"block": {"wait_before_close": BLOCKED_LINK_US}}},
+                },
+                "rx": {"max_message_size": MAX_MESSAGE_BYTES},
+            },
+        },
+    }
+
+
+def client_config(link: Link) -> dict[str, Any]:
+    """A client of the one router: it listens on nothing and looks for nobody else."""
+    config = common_config()
+    config["mode"] = "client"
+    config["connect"] = {
+        "endpoints": [link.endpoint],
+        "timeout_ms": round(link.timeout_s * 1000),
+        "exit_on_failure": True,
+        "retry": {"period_init_ms": 100, "period_max_ms": 500, "period_increase_factor": 1.5},
+    }
+    config["listen"] = {"endpoints": []}
+    if link.user:
+        config["transport"]["auth"] = {"usrpwd": {"user": link.user, "password": link.password}}
+    return config

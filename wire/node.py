@@ -1,0 +1,250 @@
+"""A process's single session with the mesh over Zenoh. Callbacks only file letters; the loop opens them."""
+
+import json
+import time
+from types import TracebackType
+from typing import Any, Self
+
+import zenoh
+
+from wire.bus import Event, Reply
+from wire.codec import encode, max_bytes
+from wire.inbox import Inbox
+from wire.keys import PRESENCE_PATH, Role, Service, Topic
+from wire.letter import NO_TICK, Kind, Letter, read_stamp, write_stamp
+from wire.link import Link, MeshError, client_config, link_for
+from wire.mailbox import Mailbox
+from wire.model import Message
+from wire.paths import id_in, key, pattern, service_for, topic_for
+from wire.site import Site
+
+LETTERS_AT_ONCE = 1000
+"""A step handles no more than this, so that a flood leaves time for what is due."""
+_REMOTE = zenoh.Locality.REMOTE
+
+
+def open_session(config: dict[str, Any]) -> zenoh.Session:
+    """The one place where sessions are opened."""
+    try:
+        return zenoh.open(zenoh.Config.from_json5(json.dumps(config)))
+    except zenoh.ZError as error:
+        raise MeshError(str(error)) from error
+
+
+class ZenohNode:
+    """`wire.bus.Node` over Zenoh, as a context manager: constructed offline, connected by `with`.
+
+    In lockstep the tick is stamped on everything sent, nothing is dropped, and unanswered questions run out by the
+    mesh's clock, which whoever drives the node writes to `tick` and `now_s`.
+    """
+
+    def __init__(self, link: Link, id: str, role: Role, lockstep: bool = False, owner: str = "") -> None:
+        self._presence_key = key(link.realm, PRESENCE_PATH, id)
+        self._link = link
+        self._id = id
+        self._role: Role = role
+        self._lockstep = lockstep
+        self._seq = 0
+        self._exprs: dict[str, zenoh.KeyExpr] = {}
+        self._declared: list[Any] = []
+        self._presence_declared = False
+        self.watching = False
+        """The core asked for presence."""
+        self.tick = NO_TICK
+        self.now_s = 0.0
+        self.inbox = Inbox(keep_newest_only=not lockstep)
+        self.mailbox = Mailbox(id, owner)
+
+    def __enter__(self) -> Self:
+        try:
+            self._session = open_session(client_config(self._link))
+        except MeshError as error:
+            who = f" as {self._link.user}" if self._link.user else ""
+            raise MeshError(
+                f"{self._id} cannot reach the router at {self._link.endpoint}{who} within {self._link.timeout_s:g} s: "
+                "see that the mesh is up (`justw status`) and that the passwords are the ones of this run"
+            ) from error
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.inbox.close()
+        self._session.close()
+
+    @property
+    def id(self) -> str:
+        return self._id
+
+    @property
+    def role(self) -> Role:
+        return self._role
+
+    def subscribe(self, topic: str, id: str | None = None) -> None:
+        row = topic_for(topic, self._role, publishing=False)
+        limit = max_bytes(row.message)
+
+        def on_sample(sample: zenoh.Sample) -> None:
+            if sample.kind == zenoh.SampleKind.PUT:
+                self._file_message(row, limit, sample)
+
+        expr = pattern(self._link.realm, row.path, id)
+        callback = zenoh.handlers.Callback(on_sample, indirect=False)
+        self._declared.append(self._session.declare_subscriber(expr, callback, allowed_origin=_REMOTE))
+
+    def serve(self, service: str, id: str = "") -> None:
+        row = service_for(service, self._role, serving=True)
+
+        def on_query(query: zenoh.Query) -> None:
+            self._file_request(row, id, query)
+
+        expr = key(self._link.realm, row.path, id)
+        callback = zenoh.handlers.Callback(on_query, indirect=False)
+        self._declared.append(self._session.declare_queryable(expr, callback, complete=True, allowed_origin=_REMOTE))
+
+    def watch_presence(self) -> None:
+        self.watching = True
+        self.track_presence()
+
+    def track_presence(self) -> None:
+        """Have presence letters filed, whether or not the core wants them."""
+        if self._presence_declared:
+            return
+        self._presence_declared = True
+
+        def on_token(sample: zenoh.Sample) -> None:
+            process = id_in(self._link.realm, PRESENCE_PATH, str(sample.key_expr))
+            if process is not None:
+                self.inbox.put(Letter(Kind.PRESENCE, "", process, alive=sample.kind == zenoh.SampleKind.PUT))
+
+        callback = zenoh.handlers.Callback(on_token, indirect=False)
+        expr = pattern(self._link.realm, PRESENCE_PATH, None)
+        self._declared.append(self._session.liveliness().declare_subscriber(expr, callback, history=True))
+
+    def announce(self) -> None:
+        """Tell the mesh that this process is there. Call when everything is subscribed and served."""
+        self._declared.append(self._session.liveliness().declare_token(self._presence_key))
+
+    def publish(self, topic: str, message: Message, id: str = "") -> None:
+        row = topic_for(topic, self._role, publishing=True)
+        if not isinstance(message, row.message):
+            raise TypeError(f"{topic} carries {row.message.__name__}, not {type(message).__name__}")
+        # a picture that was dropped in one run and not in the next would make the two runs differ
+        block = self._lockstep or row.delivery == "every"
+        self._session.put(
+            self._expr(row.path, id),
+            encode(message),
+            attachment=self._stamp(),
+            congestion_control=zenoh.CongestionControl.BLOCK if block else zenoh.CongestionControl.DROP,
+            allowed_destination=_REMOTE,
+        )
+
+    def ask(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> int:
+        row = service_for(service, self._role, serving=False)
+        if not isinstance(request, row.request):
+            raise TypeError(f"{service} is asked with {row.request.__name__}, not {type(request).__name__}")
+        expr = self._expr(row.path, id)
+        timeout_s = row.timeout_s if timeout_s is None else timeout_s
+        number = self.mailbox.ask(service, id, self._now_s(), timeout_s)
+
+        def on_reply(reply: zenoh.Reply) -> None:
+            self._file_reply(service, id, number, reply)
+
+        def on_end() -> None:
+            if not self._lockstep:
+                self.inbox.put(Letter(Kind.REPLY, service, id, ask=number, error=f"nobody answers {expr}"))
+
+        self._session.get(
+            expr,
+            zenoh.handlers.Callback(on_reply, on_end, indirect=False),
+            consolidation=zenoh.ConsolidationMode.NONE,
+            congestion_control=zenoh.CongestionControl.BLOCK,
+            timeout=3600.0 if self._lockstep else timeout_s + 1.0,
+            payload=encode(request),
+            attachment=self._stamp(),
+            allowed_destination=_REMOTE,
+        )
+        return number
+
+    def collect(self, timeout_s: float) -> list[Event]:
+        """Events as they came, waiting at most this long for the first: for a process that follows no ticks."""
+        return self.mailbox.open(self.inbox.take(timeout_s, LETTERS_AT_ONCE), self._now_s())
+
+    def call(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> Message:
+        """Ask and wait, for tools without a loop of their own; other events are lost. Raises MeshError."""
+        number = self.ask(service, request, id, timeout_s)
+        while True:
+            for event in self.collect(0.05):
+                if isinstance(event, Reply) and event.ask == number:
+                    if event.message is None:
+                        raise MeshError(event.error)
+                    return event.message
+
+    def _now_s(self) -> float:
+        return self.now_s if self._lockstep else time.monotonic()
+
+    def _expr(self, path: str, id: str) -> zenoh.KeyExpr:
+        text = key(self._link.realm, path, id)
+        if text not in self._exprs:
+            self._exprs[text] = zenoh.KeyExpr(text)
+        return self._exprs[text]
+
+    def _stamp(self) -> bytes:
+        self._seq += 1
+        return write_stamp(self.tick, self._seq, self._id)
+
+    def _file_message(self, row: Topic, limit: int, sample: zenoh.Sample) -> None:
+        full_key = str(sample.key_expr)
+        id = id_in(self._link.realm, row.path, full_key)
+        stamp = _read_stamp(sample.attachment)
+        size = len(sample.payload)
+        if id is None or stamp is None or size > limit:
+            fault = "no single key" if id is None else "no stamp" if stamp is None else f"{size} bytes are too many"
+            self.mailbox.warn(f"{full_key[:80]}: {fault}")
+            return
+        tick, seq, sender = stamp
+        self.inbox.put(Letter(Kind.MESSAGE, row.name, id, sender, tick, seq, sample.payload.to_bytes()))
+
+    def _file_request(self, row: Service, id: str, query: zenoh.Query) -> None:
+        stamp = _read_stamp(query.attachment)
+        payload = b"" if query.payload is None else query.payload.to_bytes()
+        if stamp is None or len(payload) > max_bytes(row.request):
+            self.mailbox.warn(f"{row.name}: a request without stamp or too big")
+            query.reply_err(f"{row.name}: not a request of this mesh".encode())
+            query.drop()
+            return
+        expr = self._expr(row.path, id)
+
+        def answer(reply: bytes) -> None:
+            query.reply(expr, reply, attachment=self._stamp())
+            query.drop()
+
+        def refuse(text: str) -> None:
+            query.reply_err(text.encode())
+            query.drop()
+
+        tick, seq, sender = stamp
+        self.inbox.put(Letter(Kind.REQUEST, row.name, id, sender, tick, seq, payload, answer=answer, refuse=refuse))
+
+    def _file_reply(self, service: str, id: str, number: int, reply: zenoh.Reply) -> None:
+        letter = Letter(Kind.REPLY, service, id, ask=number)
+        if reply.ok is not None:
+            stamp = _read_stamp(reply.ok.attachment)
+            if stamp is not None:
+                letter.tick, letter.seq, letter.sender = stamp
+            letter.payload = reply.ok.payload.to_bytes()
+        elif reply.err is not None:
+            letter.error = reply.err.payload.to_string() or "refused"
+        self.inbox.put(letter)
+
+
+def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0) -> ZenohNode:
+    """A node that follows no ticks: for tools, views and evaluators."""
+    return ZenohNode(link_for(site, id, timeout_s), id, role)
+
+
+def _read_stamp(attachment: zenoh.ZBytes | None) -> tuple[int, int, str] | None:
+    if attachment is None or len(attachment) > 64:
+        return None
+    try:
+        return read_stamp(attachment.to_bytes())
+    except ValueError:
+        return None

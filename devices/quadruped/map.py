@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from wire.messages.driver import LaserScan
 from wire.model import Vec2
-from wire.site import Site, Wall
+from wire.site import Door, Site, Wall
 
 CELL_M = 0.1
 MARGIN_M = 0.3
@@ -21,6 +21,8 @@ SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
 OTHER_ROBOT_M = 0.6
+ON_WALL_M = 0.12
+"""A door whose jambs are this near to a wall's line is a gap in it."""
 
 Grid = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -47,7 +49,9 @@ class FloorMap:
         self._x, self._y = np.meshgrid(x, y)
         self.walls_m: Grid = np.full((self.rows, self.columns), REACH_M, np.float32)
         for wall in site.wall:
-            self.walls_m = np.minimum(self.walls_m, self._to_wall(wall))
+            for start_m, end_m in without_doors(wall, site.door):
+                gap = self._to_segment(start_m, end_m) - wall.thickness_m / 2.0
+                self.walls_m = np.minimum(self.walls_m, np.maximum(gap, 0.0).astype(np.float32))
         self._weight: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._seen_s: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._hit_m = np.zeros((self.rows, self.columns, 2), np.float32)
@@ -145,14 +149,12 @@ class FloorMap:
         flat[cells] = np.maximum(flat[cells] + MISS, 0.0)
         self._clearance = None
 
-    def _to_wall(self, wall: Wall) -> Grid:
-        """Distance of every cell's centre to the wall's surface."""
-        start, end = np.array(wall.start_m), np.array(wall.end_m)
-        along = end - start
+    def _to_segment(self, start_m: Vec2, end_m: Vec2) -> NDArray[np.float64]:
+        """Distance of every cell's centre to a straight piece of wall."""
+        start, along = np.array(start_m), np.subtract(end_m, start_m)
         length2 = max(float(along @ along), 1e-9)
         t = np.clip(((self._x - start[0]) * along[0] + (self._y - start[1]) * along[1]) / length2, 0.0, 1.0)
-        gap = np.hypot(self._x - start[0] - t * along[0], self._y - start[1] - t * along[1])
-        distances: Grid = np.maximum(gap - wall.thickness_m / 2.0, 0.0).astype(np.float32)
+        distances: NDArray[np.float64] = np.hypot(self._x - start[0] - t * along[0], self._y - start[1] - t * along[1])
         return distances
 
     def _measure(self) -> Grid:
@@ -175,3 +177,22 @@ def _window(radius: int) -> NDArray[np.int64]:
     near = np.hypot(rows, columns) <= radius
     offsets: NDArray[np.int64] = np.stack([rows[near], columns[near]], axis=1)
     return offsets
+
+
+def without_doors(wall: Wall, doors: Iterable[Door]) -> list[tuple[Vec2, Vec2]]:
+    """The solid pieces of a wall, whether the site file draws it through its doors or not."""
+    (x0, y0), (x1, y1) = wall.start_m, wall.end_m
+    length = max(hypot(x1 - x0, y1 - y0), 1e-9)
+    ux, uy = (x1 - x0) / length, (y1 - y0) / length
+    gaps = []
+    for door in doors:
+        jambs = [((x - x0) * ux + (y - y0) * uy, (y - y0) * ux - (x - x0) * uy) for x, y in (door.start_m, door.end_m)]
+        if all(abs(beside) < ON_WALL_M for _, beside in jambs):
+            gaps.append(sorted(along for along, _ in jambs))
+    pieces, here = [], 0.0
+    for begin, end in [*sorted(gaps), [length, length]]:
+        if begin > here + 1e-6:
+            stop = min(begin, length)
+            pieces.append(((x0 + here * ux, y0 + here * uy), (x0 + stop * ux, y0 + stop * uy)))
+        here = max(here, end)
+    return pieces

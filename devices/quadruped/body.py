@@ -1,0 +1,165 @@
+"""The robot's body as its skills see it: what the driver reports, and what is asked of it."""
+
+from collections.abc import Iterable
+from math import hypot
+
+import numpy as np
+
+from devices.quadruped.map import FloorMap
+from wire.bus import Node
+from wire.frames import body_to_enu
+from wire.messages.command import TrafficOrder
+from wire.messages.driver import GripperAction, GripperCommand, GripperState, LaserScan, Odometry, VelocityCommand
+from wire.model import Message, Vec2, Vec3
+
+COUNTED_M = 0.04
+"""Smaller moves are the odometry's noise and not travelled."""
+TILT_STEP_RAD = 0.1
+"""A smaller change of the camera's tilt is no action of its own."""
+WALK_TILT_RAD = 0.45
+BUMPER_M = 0.5
+BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
+
+
+class Body:
+    """One robot. `now_s` is the time of the current step."""
+
+    def __init__(self, id: str, floor: FloorMap) -> None:
+        self.id, self.floor = id, floor
+        self.now_s = 0.0
+        self.odometry: Odometry | None = None
+        self.scan: LaserScan | None = None
+        self.gripper: GripperState | None = None
+        self.order: TrafficOrder | None = None
+        self.path_m: tuple[Vec2, ...] = ()
+        self.note, self.fraction = "", 0.0
+        self.travelled_m, self.action_steps = 0.0, 0
+        self._counted_m: Vec2 | None = None
+        self._forward_mps = self._left_mps = self._yaw_rate_radps = 0.0
+        self._tilt_rad = WALK_TILT_RAD
+        self._seq = self._grips = 0
+        self._pending: GripperCommand | None = None
+        self._awaited: str | None = None
+
+    # What the driver says
+
+    def hear(self, message: Message) -> None:
+        match message:
+            case Odometry():
+                self.odometry = message
+                self._count()
+            case LaserScan():
+                self.scan = message
+                self.floor.see(message, self.others_m)
+            case GripperState():
+                self.gripper = message
+                if message.command_id == self._awaited and message.ok is not None and not message.busy:
+                    self._awaited = None
+            case TrafficOrder():
+                self.order = message
+
+    @property
+    def position_m(self) -> Vec2:
+        assert self.odometry is not None, "nothing moves before the first odometry"
+        return self.odometry.position_enu_m[:2]
+
+    @property
+    def yaw_rad(self) -> float:
+        assert self.odometry is not None, "nothing moves before the first odometry"
+        return self.odometry.yaw_rad
+
+    @property
+    def holding(self) -> bool:
+        return self.gripper is not None and self.gripper.holding
+
+    @property
+    def others_m(self) -> tuple[Vec2, ...]:
+        return self.order.others_m if self.order else ()
+
+    @property
+    def may_move(self) -> bool:
+        return self.order is None or self.order.go or self.order.step_aside_m is not None
+
+    @property
+    def gripping(self) -> bool:
+        """The gripper is at work and its outcome not known yet."""
+        return self._awaited is not None
+
+    def room_ahead_m(self) -> float:
+        """Free length in front of the body, as the last sweep saw it."""
+        if self.scan is None:
+            return BUMPER_M
+        ranges = np.array(self.scan.ranges_m)
+        angles = self.scan.angle_min_rad + self.scan.angle_step_rad * np.arange(len(ranges))
+        ahead, aside = ranges * np.cos(angles), ranges * np.sin(angles)
+        in_way = (ranges > 0.0) & (np.abs(aside) < BODY_HALF_WIDTH_M) & (ahead > 0.0)
+        return float(ahead[in_way].min(initial=self.scan.range_max_m)) - BODY_FRONT_M
+
+    # What is asked of it
+
+    def move(self, forward_mps: float, yaw_rate_radps: float) -> None:
+        self._forward_mps, self._yaw_rate_radps = forward_mps, yaw_rate_radps
+
+    def stand(self) -> None:
+        self.move(0.0, 0.0)
+
+    def tilt(self, tilt_down_rad: float) -> None:
+        if abs(tilt_down_rad - self._tilt_rad) > TILT_STEP_RAD:
+            self.action_steps += 1
+        self._tilt_rad = tilt_down_rad
+
+    def grip(self, action: GripperAction, point_enu_m: Vec3, expected_type: str | None, goal_id: str) -> str:
+        """Reach to a point. The outcome comes with the driver's `GripperState` of the returned command id."""
+        self._grips += 1
+        self.action_steps += 1
+        command_id = f"{goal_id[-50:]}-{self._grips}"
+        self._pending = GripperCommand(
+            robot=self.id,
+            command_id=command_id,
+            action=action,
+            point_enu_m=point_enu_m,
+            expected_type=expected_type,
+        )
+        self._awaited = command_id
+        return command_id
+
+    def stop_waiting(self) -> None:
+        """The driver did not answer in time."""
+        self._awaited = None
+
+    def publish(self, node: Node) -> None:
+        """Send what is asked of the driver: once a step."""
+        if self._pending is not None:
+            node.publish("gripper_command", self._pending, self.id)
+            self._pending = None
+        self._seq += 1
+        still = not self.may_move
+        command = VelocityCommand(
+            robot=self.id,
+            seq=self._seq,
+            forward_mps=0.0 if still else self._forward_mps,
+            left_mps=0.0,
+            yaw_rate_radps=0.0 if still else self._yaw_rate_radps,
+            camera_tilt_down_rad=self._tilt_rad,
+        )
+        node.publish("velocity", command, self.id)
+
+    def touched(self) -> None:
+        """Something that the lidar does not see stands in front: remember it."""
+        front: Iterable[Vec3] = ((BODY_FRONT_M + 0.07, side, 0.0) for side in (-0.15, 0.0, 0.15))
+        here = (*self.position_m, 0.0)
+        points = np.array([body_to_enu(point, here, self.yaw_rad)[:2] for point in front])
+        self.floor.mark(points, self.now_s, TOUCH_WEIGHT)
+
+    def _count(self) -> None:
+        if self._counted_m is None:
+            self._counted_m = self.position_m
+        x, y = self.position_m
+        moved_m = hypot(x - self._counted_m[0], y - self._counted_m[1])
+        if moved_m > COUNTED_M:
+            self.travelled_m += moved_m
+            self._counted_m = (x, y)
+
+
+TOUCH_WEIGHT = 30.0
+"""Outlasts the beams that pass above or below what was touched for half a minute."""

@@ -1,0 +1,79 @@
+"""Where to stand: cells from which a place is reached or a thing can be worked on, with what each costs extra."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from devices.quadruped.map import Cell, FloorMap, Grid, Mask
+from devices.quadruped.path import NEEDED_M
+from wire.catalogue import catalogue
+from wire.model import Vec2
+from wire.site import Door, Room
+
+POINT_SLACK_M, POINT_PRICE = 0.6, 6.0
+DOORWAY_M, DOORWAY_PRICE = 1.2, 5.0
+REACH_M = 1.2
+"""Of the hand: from the body's centre to the nearest point of the thing, on the floor plane."""
+REACH_SPARE_M = 0.12
+COMFORT_M, COMFORT_PRICE = 0.75, 2.0
+MOST_PLACES = 400
+
+
+def near_point(floor: FloorMap, point_m: Vec2) -> Mapping[Cell, float]:
+    """As near to a point as the robot can stand."""
+    away = floor.distance_m(point_m)
+    free = floor.clearance_m >= NEEDED_M
+    slack = max(POINT_SLACK_M, float(away[free].min(initial=POINT_SLACK_M)) + 0.2) if free.any() else POINT_SLACK_M
+    return _cells(floor, free & (away < slack), POINT_PRICE * away)
+
+
+def in_room(floor: FloorMap, room: Room, doors: tuple[Door, ...]) -> Mapping[Cell, float]:
+    """Inside a room, out of its doorways."""
+    price = np.zeros_like(floor.walls_m)
+    for door in doors:
+        middle = ((door.start_m[0] + door.end_m[0]) / 2.0, (door.start_m[1] + door.end_m[1]) / 2.0)
+        price += DOORWAY_PRICE * np.maximum(DOORWAY_M - floor.distance_m(middle), 0.0)
+    inside = floor.inside(room.polygon_m) & (floor.clearance_m >= NEEDED_M)
+    return _cells(floor, inside & (price <= float(price[inside].min(initial=np.inf)) + DOORWAY_PRICE), price)
+
+
+def beside(
+    floor: FloorMap, point_m: Vec2, type: str, not_from_m: tuple[Vec2, ...] = (), closest_m: float = 0.0
+) -> Mapping[Cell, float]:
+    """In reach of a thing and in sight of it, at a comfortable distance; not where it was tried from before."""
+    away = floor.distance_m(point_m)
+    half = half_width_m(type)
+    fits = (floor.clearance_m >= NEEDED_M) & (away <= REACH_M + half - REACH_SPARE_M) & (away >= closest_m)
+    for tried_m in not_from_m:
+        fits &= floor.distance_m(tried_m) > 0.5
+    price: Grid = (COMFORT_PRICE * np.abs(away - half - COMFORT_M)).astype(np.float32)
+    return {
+        cell: extra
+        for cell, extra in _cells(floor, fits, price).items()
+        if floor.clear_of_walls(floor.centre_m(cell), point_m)
+    }
+
+
+def in_view(floor: FloorMap, point_m: Vec2, nearest_m: float, farthest_m: float) -> Mapping[Cell, float]:
+    """At a distance from which a thing is seen well, with no wall between."""
+    away = floor.distance_m(point_m)
+    ring = (floor.clearance_m >= NEEDED_M) & (away <= farthest_m) & (away >= nearest_m)
+    return {
+        cell: extra
+        for cell, extra in _cells(floor, ring, np.zeros_like(away)).items()
+        if floor.clear_of_walls(floor.centre_m(cell), point_m)
+    }
+
+
+def half_width_m(type: str) -> float:
+    """From a thing's middle to the nearer of its faces, as things of its type commonly are."""
+    row = catalogue().get(type)
+    return min(row.size_m[0], row.size_m[1]) / 2.0 if row else 0.0
+
+
+def _cells(floor: FloorMap, chosen: Mask, price: Grid) -> Mapping[Cell, float]:
+    """The chosen cells and their prices, the cheapest first and not too many."""
+    rows, columns = np.nonzero(chosen)
+    extra = price[rows, columns]
+    order = np.argsort(extra, kind="stable")[:MOST_PLACES]
+    return {Cell(int(rows[i]), int(columns[i])): float(extra[i]) for i in order}

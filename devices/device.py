@@ -42,6 +42,7 @@ class Device:
     def __init__(self, id: str, boot_id: str, worker: Worker, journal: GoalsJournal, lost_hub_s: float) -> None:
         self.id, self._boot_id, self._worker, self._journal = id, boot_id, worker, journal
         self._lost_hub_s = lost_hub_s
+        self._left_over = journal.open_goals()
         self._job: Job | None = None
         self._waiting: Command | None = None
         self._hub_seen_s: float | None = None
@@ -219,19 +220,17 @@ class Device:
         self._node.publish("result", result, self.id)
 
     def _interrupt_left_over(self, now_s: float) -> None:
-        begun = {self._job.command.goal_id} if self._job else set()
-        for goal_id in self._journal.open_goals():
-            if goal_id not in begun:
-                result = Result(
-                    goal_id=goal_id,
-                    robot=self.id,
-                    stamp_s=now_s,
-                    status="interrupted",
-                    code="interrupted",
-                    reason=f"{self.id} was restarted while at it",
-                )
-                self._journal.end(result)
-                self._node.publish("result", result, self.id)
+        for goal_id in self._left_over:
+            result = Result(
+                goal_id=goal_id,
+                robot=self.id,
+                stamp_s=now_s,
+                status="interrupted",
+                code="interrupted",
+                reason=f"{self.id} was restarted while at it",
+            )
+            self._journal.end(result)
+            self._node.publish("result", result, self.id)
 
     # What is said
 

@@ -22,11 +22,11 @@ BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
 
 
 class Body:
-    """One robot. `now_s` is the time of the current step."""
+    """One robot. `now_s` is the mesh's time, `clock_s` that of the skill at work, which stands while the skill does."""
 
     def __init__(self, id: str, floor: FloorMap) -> None:
         self.id, self.floor = id, floor
-        self.now_s = 0.0
+        self.now_s = self.clock_s = 0.0
         self.odometry: Odometry | None = None
         self.scan: LaserScan | None = None
         self.gripper: GripperState | None = None

@@ -50,8 +50,7 @@ class FloorMap:
         self.walls_m: Grid = np.full((self.rows, self.columns), REACH_M, np.float32)
         for wall in site.wall:
             for start_m, end_m in without_doors(wall, site.door):
-                gap = self._to_segment(start_m, end_m) - wall.thickness_m / 2.0
-                self.walls_m = np.minimum(self.walls_m, np.maximum(gap, 0.0).astype(np.float32))
+                self.walls_m = np.minimum(self.walls_m, self._to_wall(start_m, end_m, wall.thickness_m))
         self._weight: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._seen_s: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._hit_m = np.zeros((self.rows, self.columns, 2), np.float32)
@@ -149,12 +148,14 @@ class FloorMap:
         flat[cells] = np.maximum(flat[cells] + MISS, 0.0)
         self._clearance = None
 
-    def _to_segment(self, start_m: Vec2, end_m: Vec2) -> NDArray[np.float64]:
-        """Distance of every cell's centre to a straight piece of wall."""
-        start, along = np.array(start_m), np.subtract(end_m, start_m)
-        length2 = max(float(along @ along), 1e-9)
-        t = np.clip(((self._x - start[0]) * along[0] + (self._y - start[1]) * along[1]) / length2, 0.0, 1.0)
-        distances: NDArray[np.float64] = np.hypot(self._x - start[0] - t * along[0], self._y - start[1] - t * along[1])
+    def _to_wall(self, start_m: Vec2, end_m: Vec2, thickness_m: float) -> Grid:
+        """Distance of every cell's centre to a straight piece of wall, which ends flush at its jambs."""
+        length = max(hypot(end_m[0] - start_m[0], end_m[1] - start_m[1]), 1e-9)
+        ux, uy = (end_m[0] - start_m[0]) / length, (end_m[1] - start_m[1]) / length
+        dx, dy = self._x - (start_m[0] + end_m[0]) / 2.0, self._y - (start_m[1] + end_m[1]) / 2.0
+        beyond = np.maximum(np.abs(dx * ux + dy * uy) - length / 2.0, 0.0)
+        beside = np.maximum(np.abs(dy * ux - dx * uy) - thickness_m / 2.0, 0.0)
+        distances: Grid = np.hypot(beyond, beside).astype(np.float32)
         return distances
 
     def _measure(self) -> Grid:

@@ -44,9 +44,9 @@ class Walked:
 
 def wait(body: Body, seconds: float) -> Steps:
     """Stand for a while."""
-    until_s = body.now_s + seconds
+    until_s = body.clock_s + seconds
     body.stand()
-    while body.now_s < until_s:
+    while body.clock_s < until_s:
         yield
 
 
@@ -61,13 +61,13 @@ def face(body: Body, yaw_rad: float, within_rad: float = ALIGNED_RAD) -> Steps:
     """Turn on the spot."""
     if abs(wrap_rad(yaw_rad - body.yaw_rad)) > within_rad:
         body.action_steps += 1
-    begun_s = body.now_s
+    begun_s = body.clock_s
     while abs(wrap_rad(yaw_rad - body.yaw_rad)) > within_rad:
         body.move(0.0, turn_rate(wrap_rad(yaw_rad - body.yaw_rad)))
         yield
         if not body.may_move:
-            begun_s = body.now_s
-        if body.now_s - begun_s > 2.0 * STALL_S:
+            begun_s = body.clock_s
+        if body.clock_s - begun_s > 2.0 * STALL_S:
             break
     body.stand()
 
@@ -179,8 +179,8 @@ def _other_ahead(body: Body) -> bool:
 
 def _back_off(body: Body) -> Steps:
     """A little backwards, away from what stopped the robot."""
-    until_s = body.now_s + BACK_OFF_S
-    while body.now_s < until_s:
+    until_s = body.clock_s + BACK_OFF_S
+    while body.clock_s < until_s:
         body.move(BACK_OFF_MPS, 0.0)
         yield
     body.stand()
@@ -190,7 +190,7 @@ class _Watch:
     """Notices that the robot does not get on."""
 
     def __init__(self, body: Body) -> None:
-        self._anchor_m, self._anchor_rad, self._anchor_s = body.position_m, body.yaw_rad, body.now_s
+        self._anchor_m, self._anchor_rad, self._anchor_s = body.position_m, body.yaw_rad, body.clock_s
         self._other_s: float | None = None
         self._touch_s: float | None = None
 
@@ -200,15 +200,15 @@ class _Watch:
         moved = hypot(x - self._anchor_m[0], y - self._anchor_m[1]) > STALL_M
         turned = abs(wrap_rad(body.yaw_rad - self._anchor_rad)) > STALL_RAD
         if moved or turned or not body.may_move or self._other_s is not None:
-            self._anchor_m, self._anchor_rad, self._anchor_s = body.position_m, body.yaw_rad, body.now_s
+            self._anchor_m, self._anchor_rad, self._anchor_s = body.position_m, body.yaw_rad, body.clock_s
         if body.odometry is not None and body.odometry.in_contact:
-            self._touch_s = body.now_s if self._touch_s is None else self._touch_s
-            if body.now_s - self._touch_s > TOUCHING_S:
+            self._touch_s = body.clock_s if self._touch_s is None else self._touch_s
+            if body.clock_s - self._touch_s > TOUCHING_S:
                 body.touched()
                 return "touched something"
         else:
             self._touch_s = None
-        if body.now_s - self._anchor_s > STALL_S:
+        if body.clock_s - self._anchor_s > STALL_S:
             body.touched()
             return "does not get on"
         return ""
@@ -218,8 +218,8 @@ class _Watch:
         if not in_way:
             self._other_s = None
         elif self._other_s is None:
-            self._other_s = body.now_s
+            self._other_s = body.clock_s
         return in_way
 
     def patience_over(self, body: Body) -> bool:
-        return self._other_s is not None and body.now_s - self._other_s > OTHER_PATIENCE_S
+        return self._other_s is not None and body.clock_s - self._other_s > OTHER_PATIENCE_S

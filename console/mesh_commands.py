@@ -1,0 +1,135 @@
+"""up, down, status, logs, restart, sites: the processes of a mesh."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from console.bring_up import bring_up
+from console.client import ClientError, presence
+from console.logs import show_logs
+from console.output import emit, fail, terminal
+from console.places import current_mesh, known_sites, prepare
+from deploy.launch import LaunchError, Mesh, ProcessInfo
+from wire.site import SiteError, load_site
+
+Json = Annotated[bool, typer.Option("--json", help="print one JSON document instead of text")]
+
+
+def register(app: typer.Typer) -> None:
+    for command in (up, down, status, logs, restart, sites):
+        app.command()(command)
+
+
+def up(
+    site: Annotated[str | None, typer.Argument(help="a site file, or a name that `sites` lists")] = None,
+    seed: Annotated[int, typer.Option(help="without SITE: the generated home with this seed")] = 7,
+    json_: Json = False,
+) -> None:
+    """Start a site's mesh under supervision and wait until every process has announced itself."""
+    try:
+        ready = bring_up(prepare(site, seed), quiet=json_)
+    except (SiteError, LaunchError) as error:
+        fail(str(error), json_, 2 if isinstance(error, SiteError) else 1)
+    document = {
+        "ok": True,
+        "site": ready.site.name,
+        "run_dir": str(ready.mesh.run_dir),
+        "ready_s": round(ready.took_s, 2),
+    }
+    emit(document, f"{ready.site.name} is up: {len(ready.site.process)} processes in {ready.took_s:.1f} s", json_)
+
+
+def down(json_: Json = False) -> None:
+    """Stop the mesh: every process, then the supervisor."""
+    try:
+        ended = current_mesh().stop()
+    except (SiteError, LaunchError) as error:
+        fail(str(error), json_)
+    emit(
+        {"ok": True, "processes": {p.id: p.exit_code for p in ended}},
+        f"stopped {len(ended)} processes",
+        json_,
+    )
+
+
+def status(json_: Json = False) -> None:
+    """Which processes run, since when, and which have announced themselves on the mesh."""
+    try:
+        mesh = current_mesh()
+        rows = mesh.processes()
+        here = _announced(mesh)
+    except (SiteError, LaunchError) as error:
+        fail(str(error), json_)
+    document = {
+        "ok": all(row.state == "RUNNING" for row in rows),
+        "run_dir": str(mesh.run_dir),
+        "processes": [
+            {"id": r.id, "state": r.state.lower(), "pid": r.pid, "up_s": r.up_s, "announced": r.id in here}
+            for r in rows
+        ],
+    }
+    emit(document, "\n".join(_line(row, row.id in here) for row in rows), json_)
+
+
+def _announced(mesh: Mesh) -> set[str]:
+    """Processes whose liveliness tokens are there; none when the router cannot be reached."""
+    try:
+        return presence(load_site(mesh.site_file), mesh.credentials_dir)
+    except ClientError:
+        return set()
+
+
+def _line(row: ProcessInfo, announced: bool) -> str:
+    since = f"{row.up_s:6.0f} s" if row.state == "RUNNING" else f"{row.text}"
+    return f"{row.id:<12} {row.state.lower():<9} {'announced' if announced else '-':<10} {since}"
+
+
+def logs(
+    name: Annotated[str | None, typer.Argument(help="one process; all when left out")] = None,
+    follow: Annotated[bool, typer.Option("-f", "--follow", help="go on until Ctrl-C")] = False,
+    lines: Annotated[int, typer.Option("-n", help="how many past lines of each")] = 20,
+) -> None:
+    """Show what processes say, each line with its process's name."""
+    try:
+        mesh = current_mesh()
+    except SiteError as error:
+        fail(str(error))
+    files: list[Path] = sorted(mesh.log_dir.glob("*.log"))
+    if name is not None:
+        files = [f for f in files if f.stem == name]
+        if not files:
+            known = ", ".join(sorted(f.stem for f in mesh.log_dir.glob("*.log")))
+            fail(f"no process '{name}' has written a log here; there are: {known}")
+    try:
+        show_logs(files, follow, lines)
+    except KeyboardInterrupt:
+        terminal.print("")
+
+
+def restart(name: Annotated[str, typer.Argument(help="the process")], json_: Json = False) -> None:
+    """Stop one process and start it again."""
+    try:
+        current_mesh().restart(name)
+    except (SiteError, LaunchError) as error:
+        fail(str(error), json_)
+    emit({"ok": True, "restarted": name}, f"{name} restarted", json_)
+
+
+def sites(json_: Json = False) -> None:
+    """List the site files that come with the project."""
+    rows = []
+    for path in known_sites():
+        try:
+            site = load_site(path)
+            rows.append(
+                {"name": path.stem, "rooms": len(site.room), "cameras": len(site.camera), "robots": len(site.robot)}
+            )
+        except SiteError as error:
+            rows.append({"name": path.stem, "error": str(error)})
+    text = "\n".join(
+        f"{r['name']:<16} "
+        + (str(r["error"]) if "error" in r else f"{r['rooms']} rooms, {r['cameras']} cameras, {r['robots']} robots")
+        for r in rows
+    )
+    emit({"sites": rows}, text or "no site files in deploy/sites", json_)

@@ -1,0 +1,83 @@
+"""task, why, stop, pause, resume, cancel: what an operator asks of the hub."""
+
+from typing import Annotated
+
+import typer
+
+from console.client import Client, ClientError
+from console.mesh_commands import Json
+from console.output import emit, fail
+from console.places import current_mesh
+from console.task import run_task, task_document, task_text
+from wire.messages.operator import ControlReply, ControlRequest, WhyReply, WhyRequest
+from wire.site import SiteError, load_site
+
+
+def register(app: typer.Typer) -> None:
+    for command in (task, why, stop, pause, resume, cancel):
+        app.command()(command)
+
+
+def open_client() -> Client:
+    """A client of the current mesh."""
+    mesh = current_mesh()
+    return Client(load_site(mesh.site_file), mesh.credentials_dir)
+
+
+def task(
+    instruction: Annotated[str, typer.Argument(help="what is to be done, in plain words")],
+    limit_s: Annotated[float, typer.Option(help="give up waiting after this many seconds")] = 900.0,
+    json_: Json = False,
+) -> None:
+    """Have something done; shows progress, ends with what was done. Ctrl-C cancels the task."""
+    try:
+        with open_client() as client:
+            final = run_task(client, instruction, limit_s, quiet=json_)
+    except (SiteError, ClientError) as error:
+        fail(str(error), json_)
+    emit(task_document(final), task_text(final), json_)
+    if final.status != "done":
+        raise typer.Exit(1)
+
+
+def why(thing: Annotated[str, typer.Argument(help="an object: words or its id")], json_: Json = False) -> None:
+    """Say where a thing is believed to be, who said so, when, how sure, and who contradicted."""
+    try:
+        with open_client() as client:
+            reply = client.ask("why", WhyRequest(object=thing), WhyReply)
+    except (SiteError, ClientError) as error:
+        fail(str(error), json_)
+    emit(reply.model_dump(mode="json"), reply.text, json_)
+    if not reply.entries:
+        raise typer.Exit(1)
+
+
+def _control(request: ControlRequest, json_: bool) -> None:
+    try:
+        with open_client() as client:
+            reply = client.ask("control", request, ControlReply)
+    except (SiteError, ClientError) as error:
+        fail(str(error), json_)
+    if not reply.ok:
+        fail(reply.text, json_)
+    emit({"ok": True, "text": reply.text}, reply.text, json_)
+
+
+def stop(json_: Json = False) -> None:
+    """Halt every robot at once and cancel all tasks."""
+    _control(ControlRequest(verb="stop"), json_)
+
+
+def pause(json_: Json = False) -> None:
+    """Halt the robots and keep the tasks."""
+    _control(ControlRequest(verb="pause"), json_)
+
+
+def resume(json_: Json = False) -> None:
+    """Go on after a pause."""
+    _control(ControlRequest(verb="resume"), json_)
+
+
+def cancel(task: Annotated[str, typer.Argument(help="the task's id")], json_: Json = False) -> None:
+    """Cancel one task."""
+    _control(ControlRequest(verb="cancel", task=task), json_)

@@ -1,0 +1,64 @@
+"""Where meshes live on this machine: run directories under .run/, the newest one current."""
+
+import shutil
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+from deploy.launch import Mesh
+from wire.site import Site, SiteError, load_site
+
+RUN = Path(".run")
+SITES = Path("deploy/sites")
+_CURRENT = RUN / "current"
+
+
+def current_mesh() -> Mesh:
+    """The mesh that commands without a name mean: the one started last."""
+    if not _CURRENT.exists():
+        raise SiteError("no mesh has been started here yet; `justw up` starts one")
+    return Mesh(_CURRENT.resolve())
+
+
+def known_sites() -> list[Path]:
+    return sorted(SITES.glob("*.toml"))
+
+
+def prepare(name_or_path: str | None, seed: int) -> Path:
+    """Find the site file that is meant; without one, write that of the generated home with this seed."""
+    if name_or_path is None:
+        return generate_home(seed, RUN / f"home-{seed}" / "site.toml")
+    path = Path(name_or_path)
+    named = SITES / f"{name_or_path}.toml"
+    return named if not path.exists() and named.exists() else path
+
+
+def generate_home(seed: int, out: Path, *options: str) -> Path:
+    """Have the simulator write the site file of its home `seed`: floor plan and cameras, no object."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    command = [sys.executable, "-m", "sim.generator", "--seed", str(seed), "--out", str(out), *options]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise SiteError(f"the home of seed {seed} could not be generated: {done.stderr.strip()[-300:]}")
+    return out
+
+
+def install_site(path: Path) -> tuple[Site, Mesh]:
+    """Check the file, give it a run directory, and make that the current mesh."""
+    site = load_site(path)
+    run_dir = RUN / site.name
+    run_dir.mkdir(parents=True, exist_ok=True)
+    mesh = Mesh(run_dir)
+    if path.resolve() != mesh.site_file:
+        shutil.copyfile(path, mesh.site_file)
+    _CURRENT.unlink(missing_ok=True)
+    _CURRENT.symlink_to(run_dir.name, target_is_directory=True)
+    return site, mesh
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+    return port

@@ -1,0 +1,58 @@
+"""One instruction from the terminal: hand it over, show how it goes, say how it ended."""
+
+import uuid
+from typing import Any
+
+from console.client import Client
+from console.output import terminal
+from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState
+
+_RUNNING = ("planning", "running", "paused")
+
+
+def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> TaskState:
+    """Start the task and wait for its end. Ctrl-C cancels it and the robots stop; returns the last state."""
+    task = f"task-{uuid.uuid4().hex[:8]}"
+    client.listen("task_state", task)
+    state = client.ask("task", TaskRequest(task=task, instruction=instruction), TaskState)
+    shown: list[str] = []
+    try:
+        for update in client.messages(TaskState, limit_s, first=state, poll=_poll(client, task)):
+            state = update
+            if not quiet:
+                _show(state, shown)
+            if state.status not in _RUNNING:
+                break
+    except KeyboardInterrupt:
+        client.ask("control", ControlRequest(verb="cancel", task=task), ControlReply)
+        state = client.ask("task_query", TaskQuery(task=task), TaskState)
+    return state
+
+
+def _poll(client: Client, task: str) -> Any:
+    """Asks for the state when nothing came for a while: the publication may have been missed while reconnecting."""
+    return lambda: client.ask("task_query", TaskQuery(task=task), TaskState)
+
+
+def _show(state: TaskState, shown: list[str]) -> None:
+    """Print the lines of the task's log that have not been printed yet."""
+    for line in state.log:
+        if line not in shown:
+            shown.append(line)
+            terminal.print(f"{line}", markup=False)
+
+
+def task_document(state: TaskState) -> dict[str, Any]:
+    return {"ok": state.status == "done", **state.model_dump(mode="json")}
+
+
+def task_text(state: TaskState) -> str:
+    if state.refusal is not None:
+        part = f" ('{state.refusal.part}')" if state.refusal.part else ""
+        return f"not done: {state.refusal.reason}{part}"
+    goals = "\n".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}" for g in state.goals)
+    return (
+        f"{state.status}: {state.reason or state.instruction}\n{goals}\n"
+        f"planner {state.planner}, {state.nodes_done} of {state.nodes_total} steps, {state.replans} replans, "
+        f"{state.action_steps} action steps, {state.path_m:.1f} m"
+    )

@@ -1,0 +1,123 @@
+"""demo, demo-seeds, view, record, perf: what is looked at rather than commanded."""
+
+import os
+import subprocess
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from console.client import ClientError
+from console.demo import demonstrate, summary_text
+from console.mesh_commands import Json
+from console.output import emit, fail, terminal
+from console.places import current_mesh
+from deploy.launch import LaunchError
+from wire.site import Site, SiteError, load_site
+
+RERUN = Path(".venv/bin/rerun")
+
+
+def register(app: typer.Typer) -> None:
+    app.command()(demo)
+    app.command("demo-seeds")(demo_seeds)
+    app.command()(view)
+    app.command()(record)
+
+
+def demo(
+    seed: Annotated[int, typer.Option(help="which generated home")] = 7,
+    instruction: Annotated[str | None, typer.Option(help="instead of the scene's own task")] = None,
+    out: Annotated[Path, typer.Option(help="where the results go")] = Path("out/demo"),
+    limit_s: Annotated[float, typer.Option(help="give up after this many seconds")] = 600.0,
+    keep: Annotated[bool, typer.Option("--keep", help="leave the mesh up afterwards")] = False,
+    json_: Json = False,
+) -> None:
+    """Bring a home full of cameras and robots up, have one instruction done, judge it, write out/demo/."""
+    try:
+        summary = demonstrate(seed, out, instruction, limit_s, keep, quiet=json_)
+    except (SiteError, LaunchError, ClientError) as error:
+        fail(str(error), json_)
+    emit(summary, summary_text(summary, out), json_)
+    if not summary["success"]:
+        raise typer.Exit(1)
+
+
+def demo_seeds(
+    seeds: Annotated[str, typer.Option(help="FIRST-LAST")] = "0-19",
+    out: Annotated[Path, typer.Option(help="one folder per seed goes here")] = Path("out/seeds"),
+    limit_s: Annotated[float, typer.Option(help="give up on a seed after this many seconds")] = 400.0,
+    json_: Json = False,
+) -> None:
+    """Run the demo on many seeds; every run is reported, failures with their reason."""
+    first, _, last = seeds.partition("-")
+    rows = []
+    for seed in range(int(first), int(last or first) + 1):
+        try:
+            row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
+        except (SiteError, LaunchError, ClientError) as error:
+            row = {"seed": seed, "success": False, "reason": str(error), "instruction": "", "path_m": 0.0, "sim_s": 0.0}
+        rows.append(row)
+        if not json_:
+            verdict = "ok  " if row["success"] else "FAIL"
+            why = "" if row["success"] else row["reason"]
+            terminal.print(
+                f"{seed:>4} {verdict} {row['path_m']:7.1f} m {row['sim_s']:7.1f} s  {row['instruction']}  {why}",
+                markup=False,
+            )
+    good = sum(bool(r["success"]) for r in rows)
+    emit({"succeeded": good, "of": len(rows), "runs": rows}, f"{good} of {len(rows)} seeds succeeded", json_)
+
+
+def _live() -> tuple[Site, str]:
+    site = load_site(current_mesh().site_file)
+    return site, f"rerun+http://127.0.0.1:{site.view.grpc_port}/proxy"
+
+
+def view(
+    native: Annotated[bool, typer.Option("--native", help="a window instead of the browser")] = False,
+) -> None:
+    """Show the fused world live: in a browser (prints the address), or in a window where there is a display."""
+    try:
+        site, url = _live()
+    except SiteError as error:
+        fail(str(error))
+    has_display = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    if native and not has_display:
+        fail("there is no display here: neither DISPLAY nor WAYLAND_DISPLAY is set; leave --native out for the browser")
+    if native:
+        raise typer.Exit(subprocess.call([RERUN, url]))
+    page = (
+        f"http://127.0.0.1:{site.view.web_port}/?url={url.replace('+', '%2B').replace(':', '%3A').replace('/', '%2F')}"
+    )
+    terminal.print(f"open {page}\n(Ctrl-C ends the viewer, the mesh stays up)", markup=False)
+    command = [RERUN, "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(site.view.web_port), url]
+    try:
+        raise typer.Exit(subprocess.call(command))
+    except KeyboardInterrupt:
+        raise typer.Exit(0) from None
+
+
+def record(
+    file: Annotated[Path, typer.Argument(help="the recording to write, .rrd")],
+) -> None:
+    """Record what the view shows, from now until Ctrl-C."""
+    try:
+        _, url = _live()
+    except SiteError as error:
+        fail(str(error))
+    file.parent.mkdir(parents=True, exist_ok=True)
+    terminal.print(f"recording to {file} until Ctrl-C", markup=False)
+    raw = file.with_suffix(".part.rrd")
+    process = subprocess.Popen([RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"])
+    try:
+        code = process.wait()
+    except KeyboardInterrupt:
+        process.terminate()
+        code = process.wait()
+    if not raw.exists():
+        fail(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
+    # A stream that is cut has no footer; this writes it.
+    subprocess.run([RERUN, "rrd", "optimize", str(raw), "-o", str(file)], check=True, capture_output=True)
+    raw.unlink()
+    terminal.print(f"wrote {file}", markup=False)

@@ -1,0 +1,37 @@
+"""Where everything is on the screen."""
+
+from collections.abc import Sequence
+
+import rerun.blueprint as rrb
+
+TIMELINE = "time"
+
+
+def blueprint(cameras: Sequence[str], robots: Sequence[str], centre_m: tuple[float, float]) -> rrb.Blueprint:
+    """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right."""
+    x, y = centre_m
+    world = rrb.Spatial3DView(
+        origin="world",
+        name="Fused world",
+        contents=["$origin/**", *(f"- $origin/cameras/{c}/picture/**" for c in cameras)],
+        eye_controls=rrb.EyeControls3D(position=[x, y - 11.0, 15.0], look_target=[x, y, 0.0], eye_up=[0, 0, 1]),
+    )
+    pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *robots)]
+    return rrb.Blueprint(
+        rrb.Horizontal(
+            rrb.Vertical(world, rrb.StateTimelineView(origin="tasks", name="What each robot does"), row_shares=[4, 1]),
+            rrb.Grid(*pictures, grid_columns=2),
+            rrb.Vertical(
+                rrb.GraphView(origin="plan", name="Plan"),
+                rrb.TextDocumentView(origin="task", name="Task"),
+                rrb.TimeSeriesView(origin="metrics", name="Metrics"),
+                rrb.TextLogView(origin="log", name="Events"),
+            ),
+            column_shares=[5, 4, 3],
+        ),
+        rrb.TimePanel(state="collapsed", timeline=TIMELINE),
+        rrb.BlueprintPanel(state="hidden"),
+        rrb.SelectionPanel(state="hidden"),
+        auto_views=False,
+        auto_layout=False,
+    )

@@ -1,0 +1,79 @@
+"""The view as a process core: every topic it reads, and what it draws of it."""
+
+from collections.abc import Callable, Sequence
+
+import rerun as rr
+
+from hub.view.blueprint import blueprint
+from hub.view.drawing import Drawing
+from hub.view.house import draw_house
+from wire.bus import Event, Node, Received, Reply
+from wire.messages.command import RobotReport
+from wire.messages.driver import CameraFrame
+from wire.messages.observation import EventLog, ObservationBatch
+from wire.messages.operator import TaskState
+from wire.messages.plan import PlanState
+from wire.messages.world import SnapshotRequest, WorldDelta, WorldState
+from wire.model import Message
+from wire.site import Site
+
+_TOPICS = ("frame", "observation", "robot_report", "world_delta", "plan_state", "task_state", "event")
+
+
+class ViewCore:
+    """Draws into one Rerun recording: to live viewers on the site's port, and to a file when the site names one."""
+
+    def __init__(self, site: Site, rec: rr.RecordingStream) -> None:
+        self._site = site
+        self._rec = rec
+        self._drawing = Drawing(rec)
+        draw = self._drawing
+        self._handlers: dict[type[Message], Callable[..., None]] = {
+            CameraFrame: draw.frame,
+            ObservationBatch: draw.observation,
+            RobotReport: draw.report,
+            WorldDelta: draw.world,
+            PlanState: draw.plan,
+            TaskState: draw.task,
+            EventLog: draw.event,
+        }
+
+    def start(self, node: Node) -> None:
+        xs = [x for room in self._site.room for x, _ in room.polygon_m]
+        ys = [y for room in self._site.room for _, y in room.polygon_m]
+        centre = ((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2)
+        layout = blueprint([c.id for c in self._site.camera], [r.id for r in self._site.robot], centre)
+        self._rec.send_blueprint(layout, make_active=True)
+        draw_house(self._rec, self._site)
+        for topic in _TOPICS:
+            node.subscribe(topic)
+        node.ask("snapshot", SnapshotRequest())
+
+    def step(self, now_s: float, events: Sequence[Event]) -> None:
+        del now_s  # everything is drawn at its own stamp
+        for event in events:
+            if isinstance(event, Received):
+                self._handlers[type(event.message)](event.message)
+            elif isinstance(event, Reply) and isinstance(event.message, WorldState):
+                world = event.message
+                whole = WorldDelta(
+                    seq=max(1, world.seq), stamp_s=world.stamp_s,
+                    robots=world.robots, objects=world.objects, areas=world.areas,
+                )  # fmt: skip
+                self._drawing.world(whole)
+
+    def stop(self) -> None:
+        self._rec.flush()
+        self._rec.disconnect()
+
+
+def open_recording(site: Site) -> rr.RecordingStream:
+    """A recording that serves live viewers on loopback and, when the site names a file, writes it too."""
+    rec = rr.RecordingStream("r2x", recording_id=f"r2x-{site.name}")
+    sinks: list[rr.GrpcServerSink | rr.FileSink] = [
+        rr.GrpcServerSink(bind_ip="127.0.0.1", port=site.view.grpc_port, server_memory_limit=site.view.memory_limit)
+    ]
+    if site.view.save:
+        sinks.append(rr.FileSink(site.view.save))
+    rec.set_sinks(*sinks)
+    return rec

@@ -1,7 +1,5 @@
 """The operator's commands. Each is a few lines here; the work is in the module it calls."""
 
-from typing import Annotated
-
 import typer
 
 from console import mesh_commands, operate_commands, watch_commands
@@ -10,5 +8,3 @@ app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_
 mesh_commands.register(app)
 operate_commands.register(app)
 watch_commands.register(app)
-
-Json = Annotated[bool, typer.Option("--json", help="print one JSON document instead of text")]

@@ -18,6 +18,7 @@ from typing import Any
 from supervisor.xmlrpc import SupervisorTransport
 
 from deploy.supervisord import Places, render
+from wire.access import write_credentials
 from wire.site import Site
 
 UP_STATES = ("STARTING", "RUNNING", "BACKOFF")
@@ -71,6 +72,7 @@ class Mesh:
         self.log_dir.mkdir(parents=True, exist_ok=True)
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)
         self._socket.unlink(missing_ok=True)
+        write_credentials(site, self.credentials_dir)  # before anybody looks for its password
         config = self.run_dir / "supervisord.conf"
         places = Places(self.site_file, self.run_dir, self._socket, self.credentials_dir, sys.executable)
         config.write_text(render(site, places))

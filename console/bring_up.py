@@ -44,7 +44,9 @@ def _wait_for_all(site: Site, mesh: Mesh, quiet: bool) -> None:
         while missing := wanted - here:
             _look_for_failures(mesh)
             if time.monotonic() > deadline:
-                raise LaunchError(f"not announced within {_LIMIT_S:.0f} s: {', '.join(sorted(missing))}; `justw logs` tells more")
+                raise LaunchError(
+                    f"not announced within {_LIMIT_S:.0f} s: {', '.join(sorted(missing))}; `justw logs` tells more"
+                )
             before = here
             here = client.update_presence(here)
             if not quiet:
@@ -73,4 +75,6 @@ def _look_for_failures(mesh: Mesh) -> None:
         if process.state in _GIVEN_UP:
             log = mesh.log_dir / f"{process.id}.log"
             words = log.read_text(errors="replace").strip().splitlines()[-1:] if log.exists() else []
-            raise LaunchError(f"{process.id} ended with code {process.exit_code}: {words[0] if words else process.text}")
+            raise LaunchError(
+                f"{process.id} ended with code {process.exit_code}: {words[0] if words else process.text}"
+            )

@@ -40,8 +40,8 @@ def demonstrate(
     out.mkdir(parents=True, exist_ok=True)
     recording = (out / "run.rrd").resolve()
     recording.unlink(missing_ok=True)
-    say = (lambda _text: None) if quiet else (lambda text: terminal.print(text, markup=False))
-    say(f"generating the home of seed {seed} ...")
+    if not quiet:
+        terminal.print(f"generating the home of seed {seed} ...", markup=False)
     site_file = generate_home(
         seed, out / "site.toml", "--name", f"demo-{seed}", "--port", str(free_port()),
         "--view-port", str(free_port()), "--save", str(recording),

@@ -91,7 +91,7 @@ def view(
         f"http://127.0.0.1:{site.view.web_port}/?url={url.replace('+', '%2B').replace(':', '%3A').replace('/', '%2F')}"
     )
     terminal.print(f"open {page}\n(Ctrl-C ends the viewer, the mesh stays up)", markup=False)
-    command = [RERUN, "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(site.view.web_port), url]
+    command = [str(RERUN), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(site.view.web_port), url]
     try:
         raise typer.Exit(subprocess.call(command))
     except KeyboardInterrupt:

@@ -103,13 +103,18 @@ class WalkMesh:
                 process.wait()
 
     def run(self, module: str, id: str, *args: str) -> "subprocess.Popen[bytes]":
-        environment = {**os.environ, "PYTHONPATH": str(ROOT), "R2X_CREDENTIALS": str(self.folder / "credentials")}
         with (self.folder / f"{id}.log").open("ab") as log:
             self.processes[id] = subprocess.Popen(
-                [sys.executable, "-m", module, "--site", str(self.site_file), "--id", id, *args],
-                cwd=self.folder, env=environment, stdout=log, stderr=log,
-            )  # fmt: skip
+                self.command(module, id, *args), cwd=self.folder, env=self.environment, stdout=log, stderr=log
+            )
         return self.processes[id]
+
+    def command(self, module: str, id: str, *args: str) -> list[str]:
+        return [sys.executable, "-m", module, "--site", str(self.site_file), "--id", id, *args]
+
+    @property
+    def environment(self) -> dict[str, str]:
+        return {**os.environ, "PYTHONPATH": str(ROOT), "R2X_CREDENTIALS": str(self.folder / "credentials")}
 
     def run_core(self, id: str) -> None:
         self.run("tests.walk.mesh", id, "--diary", str(self.folder / f"{id}.diary"))

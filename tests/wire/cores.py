@@ -6,6 +6,8 @@ from wire.bus import Event, Node, Presence, Received, Reply, Request
 from wire.messages.command import CardRequest, DeviceCard, Progress
 from wire.messages.driver import VelocityCommand
 from wire.messages.observation import EventLog
+from wire.messages.truth import JudgeReply, TruthState, TruthTask
+from wire.messages.world import WorldState
 
 
 def describe(event: Event) -> str:
@@ -32,14 +34,21 @@ class Diary:
 
 
 class Clockwork(Diary):
-    """A clock's owner that hears velocities and says what it heard in an odd way: the `sim` of these tests."""
+    """A clock's owner that hears velocities, and tells the truth and judges to whoever may hear it."""
 
     def start(self, node: Node) -> None:
         self._node = node
         node.subscribe("velocity")
+        node.serve("judge")
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
-        self.note(now_s, events)
+        self.note(now_s, [event for event in events if not isinstance(event, Request)])
+        self._node.publish("truth", TruthState(stamp_s=now_s, world=WorldState(seq=1, stamp_s=now_s)))
+        task = TruthTask(instruction="find the mug", goals=())
+        for event in events:
+            if isinstance(event, Request):
+                reply = JudgeReply(stamp_s=now_s, task=task, goals=(), success=True, collisions=0, sim_s=now_s)
+                event.reply(reply)
 
     def stop(self) -> None:
         self.lines.append("stopped")

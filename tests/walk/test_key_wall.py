@@ -1,0 +1,93 @@
+"""Ground truth reaches the evaluator and nobody else, however a rogue asks for it; without access control it would."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+import zenoh
+
+from tests.walk.mesh import WalkMesh
+from wire.bus import Presence, Received
+from wire.codec import encode
+from wire.letter import NO_TICK, write_stamp
+from wire.link import Link, MeshError, client_config, link_for
+from wire.messages.truth import JudgeReply, JudgeRequest
+from wire.node import ZenohNode, node_for
+
+pytestmark = pytest.mark.walk
+GREEDY = ("**", "r2x/**", "r2x/gt/**", "r2x/gt/state", "*/gt/*")
+
+
+@contextmanager
+def truthful_mesh(folder: Path, monkeypatch: pytest.MonkeyPatch, secured: bool) -> Iterator[WalkMesh]:
+    monkeypatch.setenv("R2X_CREDENTIALS", str(folder / "credentials"))
+    with WalkMesh(folder, mode="wall", secured=secured) as mesh:
+        mesh.run_core("sim")
+        mesh.run_core("dog-1")
+        yield mesh
+
+
+def heard_by_a_rogue(link: Link, mesh: WalkMesh) -> tuple[set[str], int]:
+    """The keys a raw session hears on greedy subscriptions, and the answers it gets from the judge."""
+    keys: set[str] = set()
+    answers: list[object] = []
+    with zenoh.open(zenoh.Config.from_json5(json.dumps(client_config(link)))) as session:
+        for greedy in (*GREEDY, "r2x/event/*"):
+            hear = zenoh.handlers.Callback(lambda sample: keys.add(str(sample.key_expr)), indirect=False)
+            session.declare_subscriber(greedy, hear)
+        mesh.wait(lambda: "r2x/event/dog-1" in keys)
+        for selector in ("r2x/gt/judge", "r2x/gt/**", "**"):
+            question = {"payload": encode(JudgeRequest()), "attachment": write_stamp(NO_TICK, 1, "console-1")}
+            got = session.get(selector, timeout=2.0, target=zenoh.QueryTarget.ALL, **question)
+            answers += [reply.ok for reply in got if reply.ok is not None]
+        # the evaluator hears the truth meanwhile, so that there is something to be heard
+        with node_for(mesh.site, "evaluator", "evaluator") as evaluator:
+            evaluator.subscribe("truth")
+            truths: list[Received] = []
+            while len(truths) < 5:
+                truths += [event for event in evaluator.collect(0.1) if isinstance(event, Received)]
+    return keys, len(answers)
+
+
+def test_a_rogue_with_the_consoles_password_hears_no_truth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with truthful_mesh(tmp_path, monkeypatch, secured=True) as mesh:
+        with node_for(mesh.site, "evaluator", "evaluator") as evaluator:
+            evaluator.watch_presence()
+            mesh.wait(lambda: Presence("sim", True) in evaluator.collect(0.1))
+            assert isinstance(evaluator.call("judge", JudgeRequest(), timeout_s=5.0), JudgeReply)
+        for user in ("console", "hub"):
+            keys, answers = heard_by_a_rogue(link_for(mesh.site, user), mesh)
+            assert not [key for key in keys if "/gt/" in key]
+            assert answers == 0
+
+
+def test_without_access_control_the_same_rogue_hears_everything(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with truthful_mesh(tmp_path, monkeypatch, secured=False) as mesh:
+        keys, answers = heard_by_a_rogue(link_for(mesh.site, "console"), mesh)
+        assert "r2x/gt/state" in keys
+        assert answers >= 1
+
+
+def test_without_a_password_nobody_enters(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with truthful_mesh(tmp_path, monkeypatch, secured=True) as mesh:
+        for user, password in (("", ""), ("console", "guess"), ("nobody", "x")):
+            link = Link(mesh.site.router.endpoint, "r2x", user, password, timeout_s=1.0)
+            with (
+                pytest.raises(MeshError, match=r"cannot reach the router at tcp/127\.0\.0\.1"),
+                ZenohNode(link, "console-1", "console"),
+            ):
+                pass
+
+
+def test_passwords_are_for_their_owner_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with truthful_mesh(tmp_path, monkeypatch, secured=True) as mesh:
+        files = list((tmp_path / "credentials").iterdir())
+        assert {file.name for file in files} >= {"console", "evaluator", "hub", "dog-1", "users.txt"}
+        assert all(file.stat().st_mode & 0o077 == 0 for file in files)
+        (tmp_path / "credentials" / "console").chmod(0o644)
+        with pytest.raises(MeshError, match="chmod 600"):
+            link_for(mesh.site, "console-7")

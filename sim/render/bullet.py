@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from sim import textures
 from sim.render.instances import Instances, PartsOf
-from sim.render.meshes import DETAILS, vertices
+from sim.render.meshes import DETAILS, SHADOW, vertices
 from sim.render.picture import NOTHING_ID, Camera, Picture
 from sim.render.rows import Rows
 from sim.render.view import depth_from_window, projection_matrix, view_matrix
@@ -70,10 +70,16 @@ class BulletRenderer:
         for owner in sorted(self._instances.changed, key=str):
             for number in self._bodies.get(owner, []):
                 pybullet.removeBody(number, physicsClientId=self._client)
-            rows = self._instances.group(owner)
+            rows = self._solid(owner)
             self._bodies[owner] = [self._create(row) for row in rows]
             self._own(self._bodies[owner], rows)
         self._instances.changed.clear()
+
+    def _solid(self, owner: int | str) -> Rows:
+        """All but the soft shadows, which this renderer cannot draw."""
+        rows = self._instances.group(owner)
+        solid: Rows = rows[rows["shape"] != SHADOW]
+        return solid
 
     def _own(self, numbers: list[int], rows: Rows) -> None:
         """Remember whose pixels PyBullet's numbers are; its -1, nothing, finds the last entry."""
@@ -105,7 +111,7 @@ class BulletRenderer:
         """Put a robot's shapes aside, or back in their place with no shift."""
         if robot is None or robot not in self._bodies:
             return
-        for number, row in zip(self._bodies[robot], self._instances.group(robot), strict=True):
+        for number, row in zip(self._bodies[robot], self._solid(robot), strict=True):
             position = (row["centre"] + np.array(by_m)).tolist()
             pybullet.resetBasePositionAndOrientation(number, position, (0, 0, 0, 1), physicsClientId=self._client)
 

@@ -14,7 +14,7 @@ from sim.render.meshes import vertices
 from sim.render.picture import NOTHING_ID, Camera, Picture
 from sim.render.portals import Portals
 from sim.render.rows import ROW
-from sim.render.view import Batch, depth_from_window, projection_matrix, view_matrix, visible_batches
+from sim.render.view import SOFT_SHADOW, WAYS, Batch, depth_from_window, projection_matrix, view_matrix, visible_batches
 from sim.scene import Body, Scene, Vec3
 
 MESH_FORMAT = ("3f 3f 2f 3f 3f", "position", "normal", "uv", "along_u", "along_v")
@@ -39,11 +39,8 @@ class GlRenderer:
         self._portals = Portals(scene, self._instances.finder)
         self._surfaces = _upload_surfaces(self._context)
         lamps, extents, ceiling_m = lamp_table(scene)
-        self._programs = tuple(
-            self._context.program(vertex_shader=shaders.VERTEX, fragment_shader=fragment)
-            for fragment in (shaders.PLAIN, shaders.TEXTURED)
-        )
-        for program in self._programs:
+        self._programs = {way: _program(self._context, way) for way in WAYS}
+        for program in self._programs.values():
             _write(program, "lamps", lamps)
             _write(program, "extents", extents)
             _write(program, "repeat_m", np.array(textures.REPEAT_M))
@@ -69,25 +66,34 @@ class GlRenderer:
         frame.clear()
         self._surfaces.use()
         clip_from_site = (projection_matrix(camera) @ view_matrix(camera)).T.astype(np.float32).tobytes()
-        for program in self._programs:
+        for program in self._programs.values():
             _uniform(program, "clip_from_site").write(clip_from_site)
-        for batch in visible_batches(self._instances, self._portals, camera):
-            self._draw(batch)
+        batches = visible_batches(self._instances, self._portals, camera)
+        for batch in batches:
+            if batch.way != SOFT_SHADOW:
+                self._draw(batch)
+        self._darken(frame, [batch for batch in batches if batch.way == SOFT_SHADOW])
         return target.read(frame, with_ids, with_depth)
 
     def close(self) -> None:
         self._context.release()
 
+    def _darken(self, frame: moderngl.Framebuffer, shadows: list[Batch]) -> None:
+        """Shadows change the colour of what is there, neither its depth nor whose pixel it is."""
+        self._context.enable(moderngl.BLEND)
+        masks = frame.color_mask, frame.depth_mask
+        frame.color_mask, frame.depth_mask = _colour_only(len(frame.color_attachments)), False
+        for batch in shadows:
+            self._draw(batch)
+        frame.color_mask, frame.depth_mask = masks
+        self._context.disable(moderngl.BLEND)
+
     def _draw(self, batch: Batch) -> None:
-        textured = batch.rows["surface"] > 0.0
-        for kind, rows in ((0, batch.rows[~textured]), (1, batch.rows[textured])):
-            if not len(rows):
-                continue
-            key = (batch.shape, batch.detail, kind)
-            if key not in self._meshes:
-                mesh = vertices(batch.shape, batch.detail)
-                self._meshes[key] = _Mesh(self._context, self._programs[kind], mesh)
-            self._meshes[key].draw(rows)
+        key = (batch.shape, batch.detail, batch.way)
+        if key not in self._meshes:
+            mesh = vertices(batch.shape, batch.detail)
+            self._meshes[key] = _Mesh(self._context, self._programs[batch.way], mesh)
+        self._meshes[key].draw(batch.rows)
 
 
 class _Mesh:
@@ -136,6 +142,16 @@ class _Target:
             window = np.frombuffer(frame.read(components=1, attachment=-1, dtype="f4"), np.float32)
             depth_m = depth_from_window(window.reshape(height, width))
         return Picture(rgb, ids, depth_m)
+
+
+def _program(context: moderngl.Context, way: int) -> moderngl.Program:
+    vertex, fragment = shaders.sources(way)
+    return context.program(vertex_shader=vertex, fragment_shader=fragment)
+
+
+def _colour_only(attachments: int) -> Any:
+    mask = ((True,) * 4, (False,) * 4)
+    return mask if attachments == 2 else mask[0]
 
 
 def _upload_surfaces(context: moderngl.Context) -> moderngl.TextureArray:

@@ -7,13 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.render.building import RoomFinder, building_rows
-from sim.render.meshes import SHAPE_CODE
+from sim.render.meshes import SHADOW, SHAPE_CODE
 from sim.render.picture import ROBOT_ID
 from sim.render.robot import robot_parts
 from sim.render.rows import ROW, Rows
 from sim.scene import Body, Part, Scene, Vec3
 
 PartsOf = Callable[[Body], Sequence[Part]]
+
+ON_FLOOR_M = 0.05
+ROBOT_SIZE_M = (0.65, 0.35, 0.45)
 
 
 class Instances:
@@ -38,6 +41,7 @@ class Instances:
     def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool) -> None:
         number = self._robots.setdefault(name, len(self._robots))
         rows = part_rows(robot_parts(number, holding), position_m, yaw_rad)
+        rows = np.concatenate([rows, _shadow(ROBOT_SIZE_M, position_m, yaw_rad)])
         rows["id"] = ROBOT_ID + number
         rows["room"], _ = self.finder.place(position_m)
         rows["rooms"] = self.finder.everywhere
@@ -59,6 +63,8 @@ class Instances:
 
     def _body_rows(self, body: Body) -> Rows:
         rows = part_rows(self._parts_of(body), body.position_m, body.yaw_rad)
+        if body.position_m[2] < ON_FLOOR_M:
+            rows = np.concatenate([rows, _shadow(body.size_m, body.position_m, body.yaw_rad)])
         rows["id"] = body.key
         rows["room"], rows["rooms"] = self.finder.place(body.position_m)
         return rows
@@ -79,6 +85,14 @@ def part_rows(parts: Sequence[Part], position_m: Vec3, yaw_rad: float) -> Rows:
         row["centre"] = (position_m[0] + c * x - s * y, position_m[1] + s * x + c * y, position_m[2] + z)
         row["axes"] = _axes(yaw_rad + part.yaw_rad, part.pitch_rad) * np.array(part.size_m)[:, None]
         row["rgb"], row["surface"], row["emission"] = part.rgb, part.texture, part.emission
+    return rows
+
+
+def _shadow(size_m: Vec3, position_m: Vec3, yaw_rad: float) -> Rows:
+    """Under a thing, larger than its footprint by what is soft of it."""
+    footprint = (size_m[0] * 1.15 + 0.10, size_m[1] * 1.15 + 0.10, 0.008)
+    rows = part_rows([Part("box", (0.0, 0.0, 0.0), footprint, (0.0, 0.0, 0.0))], position_m, yaw_rad)
+    rows["shape"] = SHADOW
     return rows
 
 

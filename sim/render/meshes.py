@@ -1,4 +1,7 @@
-"""Unit shapes as triangles, one metre across and centred, each in three degrees of roundness."""
+"""Unit shapes as triangles, one metre across and centred, each in three degrees of roundness.
+
+SHADOW is the top of a box: soft darkness below a thing that stands on the floor, only drawn where it can be soft.
+"""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -7,8 +10,9 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-BOX, CYLINDER, SPHERE, CONE, TRIANGLE = range(5)
+BOX, CYLINDER, SPHERE, CONE, TRIANGLE, SHADOW = range(6)
 SHAPE_CODE = {"box": BOX, "cylinder": CYLINDER, "sphere": SPHERE, "cone": CONE}
+SHAPES = 6
 DETAILS = 3
 SEGMENTS = (7, 12, 24)
 """Sides of a round shape, coarsest first."""
@@ -27,6 +31,8 @@ def vertices(shape: int, detail: int) -> Vertices:
         rows = _box()
     elif shape == TRIANGLE:
         rows = _triangle()
+    elif shape == SHADOW:
+        rows = [row for row in _box() if row[5] > 0.0]
     else:
         rows = _turned(_profile(shape, SEGMENTS[detail]), SEGMENTS[detail])
     return np.asarray(rows, dtype=np.float32).reshape(-1, 14)

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.render.instances import Instances
-from sim.render.meshes import BOX, DETAILS, TRIANGLE
-from sim.render.picture import FAR_M, NEAR_M, Camera
+from sim.render.meshes import BOX, DETAILS, SHADOW, SHAPES, TRIANGLE
+from sim.render.picture import FAR_M, NEAR_M, ROBOT_ID, WALL_ID, Camera
 from sim.render.portals import Portals
 from sim.render.rows import Rows
 from wire.frames import camera_axes
@@ -43,12 +43,21 @@ def projection_matrix(camera: Camera) -> Matrix:
     )
 
 
+WAYS = THING, THING_PICTURED, BUILDING, BUILDING_PICTURED, SOFT_SHADOW = range(5)
+"""In the order of drawing: things before the building, which is mostly behind them, and shadows on top of floors.
+
+Things are lit at their corners, the large faces of the building at every pixel. Pictured ones have a surface.
+"""
+
+
 @dataclass(frozen=True)
 class Batch:
-    """Rows that share a mesh, nearest first."""
+    """Rows that share a mesh and a way of being lit, nearest first."""
 
     shape: int
     detail: int
+    way: int
+    """How its pixels come about, one of WAYS."""
     rows: Rows
 
 
@@ -68,11 +77,19 @@ def visible_batches(instances: Instances, portals: Portals, camera: Camera) -> l
     radius_m = np.sqrt((half**2).sum(axis=(1, 2)))
     depth_m = np.maximum(middle[:, 2], NEAR_M)
     radius_px = camera.focal_px * radius_m / depth_m
-    detail = np.where(rows["shape"] % TRIANGLE == BOX, 0, np.searchsorted(DETAIL_PX, radius_px))
-    mesh = rows["shape"] * DETAILS + detail
-    order = np.lexsort((middle[:, 2] - radius_m, mesh))
+    detail = np.where(np.isin(rows["shape"], (BOX, TRIANGLE, SHADOW)), 0, np.searchsorted(DETAIL_PX, radius_px))
+    kind = (_ways(rows) * SHAPES + rows["shape"]) * DETAILS + detail
+    order = np.lexsort((middle[:, 2] - radius_m, kind))
     order = order[radius_px[order] > TINY_PX]
-    return _grouped(rows[order], mesh[order])
+    return _grouped(rows[order], kind[order])
+
+
+def _ways(rows: Rows) -> NDArray[np.int64]:
+    building = (rows["id"] >= WALL_ID) & (rows["id"] < ROBOT_ID)
+    pictured = rows["surface"] > 0
+    plain = np.where(building, BUILDING, THING)
+    ways = np.where(pictured, np.where(building, BUILDING_PICTURED, THING_PICTURED), plain)
+    return np.where(rows["shape"] == SHADOW, SOFT_SHADOW, ways)
 
 
 def _bounds(rows: Rows, centre: Matrix, axes: Matrix) -> tuple[Matrix, Matrix]:
@@ -95,13 +112,16 @@ def _in_frustum(middle: Matrix, half: Matrix, camera: Camera) -> NDArray[np.bool
     return np.asarray((middle @ planes.T + offset + reach > 0.0).all(axis=1))
 
 
-def _grouped(rows: Rows, mesh: NDArray[np.int64]) -> list[Batch]:
-    ends = np.flatnonzero(np.diff(mesh)) + 1
+def _grouped(rows: Rows, kind: NDArray[np.int64]) -> list[Batch]:
+    ends = np.flatnonzero(np.diff(kind)) + 1
     starts = [0, *ends.tolist()] if len(rows) else []
     stops = [*ends.tolist(), len(rows)]
-    return [
-        Batch(int(mesh[a]) // DETAILS, int(mesh[a]) % DETAILS, rows[a:b]) for a, b in zip(starts, stops, strict=False)
-    ]
+    return [_batch(rows[a:b], int(kind[a])) for a, b in zip(starts, stops, strict=False)]
+
+
+def _batch(rows: Rows, kind: int) -> Batch:
+    mesh, way = kind % (SHAPES * DETAILS), kind // (SHAPES * DETAILS)
+    return Batch(mesh // DETAILS, mesh % DETAILS, way, rows)
 
 
 def depth_from_window(window: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -75,5 +75,5 @@ def home() -> Scene:
         doors=(Door("d", ("a", "b"), (4.0, 1.6), (4.0, 2.6), 2.05),),
         bodies=_bodies(),
         cameras=(_camera("cam-1", "a", 3.8, 0.2, 0.75 * pi), _camera("cam-2", "b", 7.8, 3.8, -0.75 * pi)),
-        robot_starts=(((2.5, 2.0, 0.0), 0.0),),
+        robot_starts=(((2.5, 2.0), 0.0),),
     )

@@ -75,7 +75,9 @@ def status(json_: Json = False) -> None:
 def _announced(mesh: Mesh) -> set[str]:
     """Processes whose liveliness tokens are there; none when the router cannot be reached."""
     try:
-        return presence(load_site(mesh.site_file), mesh.credentials_dir)
+        site = load_site(mesh.site_file)
+        routers = {p.id for p in site.process if p.role == "router"}  # who answers at all has a router
+        return presence(site, mesh.credentials_dir) | routers
     except ClientError:
         return set()
 

@@ -95,12 +95,12 @@ class Mesh:
         if not self._socket.exists():
             return False
         try:
-            return bool(self._rpc().supervisor.getState()["statename"] == "RUNNING")
+            return bool(self._ask("getState")["statename"] == "RUNNING")
         except (OSError, xmlrpc.client.Error):
             return False
 
     def processes(self) -> list[ProcessInfo]:
-        rows: Any = self._call("getAllProcessInfo")
+        rows = self._call("getAllProcessInfo")
         return [
             ProcessInfo(
                 id=row["name"], state=row["statename"], pid=row["pid"],
@@ -131,7 +131,7 @@ class Mesh:
         return ended
 
     def _state(self, name: str) -> str:
-        row: Any = self._call("getProcessInfo", name)
+        row = self._call("getProcessInfo", name)
         return str(row["statename"])
 
     def _known(self, name: str) -> None:
@@ -139,19 +139,19 @@ class Mesh:
         if name not in names:
             raise LaunchError(f"no process '{name}' in this mesh; there are: {', '.join(sorted(names))}")
 
-    def _rpc(self) -> Any:
+    def _ask(self, method: str, *args: object) -> Any:
         transport = SupervisorTransport(None, None, f"unix://{self._socket}")
-        return xmlrpc.client.ServerProxy("http://127.0.0.1", transport=transport)
+        with xmlrpc.client.ServerProxy("http://127.0.0.1", transport=transport) as proxy:
+            return getattr(proxy.supervisor, method)(*args)
 
-    def _call(self, method: str, *args: object) -> object:
+    def _call(self, method: str, *args: object) -> Any:
         if not self._socket.exists():
             raise LaunchError(f"no mesh runs from {self.run_dir}; `justw up` starts one")
         try:
-            result: object = getattr(self._rpc().supervisor, method)(*args)
+            return self._ask(method, *args)
         except xmlrpc.client.Fault as fault:
             raise LaunchError(
                 f"the supervisor refused {method} {' '.join(map(str, args))}: {fault.faultString}"
             ) from None
         except OSError:
             raise LaunchError(f"no mesh runs from {self.run_dir} any more; `justw up` starts one") from None
-        return result

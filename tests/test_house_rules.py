@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-PACKAGES = ("wire", "hub", "planners", "devices", "sim", "console", "deploy")
+PACKAGES = ("wire", "hub", "planners", "devices", "sim", "console", "deploy", "bench")
 SOURCES = sorted(p for name in PACKAGES for p in (ROOT / name).rglob("*.py"))
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 MAX_FILE_LINES = 300

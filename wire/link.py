@@ -8,7 +8,7 @@ from typing import Any
 
 from wire.site import Site
 
-LEASE_MS = 1000
+LEASE_MS = 900
 BLOCKED_LINK_US = 1_000_000
 """A reader that takes nothing for this long while its queue is full is cut off, so that it holds up nobody else."""
 MAX_MESSAGE_BYTES = 16_000_000

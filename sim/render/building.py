@@ -32,7 +32,6 @@ class RoomFinder:
     def __init__(self, rooms: tuple[Room, ...]) -> None:
         self._polygons = [room.polygon_m for room in rooms]
         self.index = {room.id: i for i, room in enumerate(rooms)}
-        self.everywhere = EVERYWHERE
 
     def find(self, point_m: Vec2) -> int | None:
         return next((i for i, polygon in enumerate(self._polygons) if contains(polygon, point_m)), None)

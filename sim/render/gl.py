@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import cv2
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +102,10 @@ class _Mesh:
 
     def __init__(self, context: moderngl.Context, program: moderngl.Program, mesh: NDArray[np.float32]) -> None:
         self._context, self._program = context, program
-        self._vertices = context.buffer(mesh.tobytes())
+        # A vertex that several triangles share is lit once.
+        corners, order = np.unique(mesh, axis=0, return_inverse=True)
+        self._vertices = context.buffer(corners.tobytes())
+        self._order = context.buffer(order.astype(np.int32).tobytes())
         self._reserve(64)
 
     def draw(self, rows: NDArray[Any]) -> None:
@@ -117,7 +121,7 @@ class _Mesh:
         self._capacity = capacity
         self._rows = self._context.buffer(reserve=capacity * ROW.itemsize, dynamic=True)
         content = [(self._vertices, *MESH_FORMAT), (self._rows, ROW_FORMAT, *ROW_NAMES)]
-        self._array = self._context.vertex_array(self._program, content, skip_errors=True)
+        self._array = self._context.vertex_array(self._program, content, self._order, skip_errors=True)
 
 
 class _Target:
@@ -133,7 +137,8 @@ class _Target:
 
     def read(self, frame: moderngl.Framebuffer, with_ids: bool, with_depth: bool) -> Picture:
         width, height = self._size
-        rgb = np.frombuffer(frame.read(components=3, alignment=1), np.uint8).reshape(height, width, 3)
+        rgba = np.frombuffer(frame.read(components=4), np.uint8).reshape(height, width, 4)
+        rgb = np.asarray(cv2.cvtColor(rgba, cv2.COLOR_RGBA2RGB), dtype=np.uint8)
         ids = depth_m = None
         if with_ids:
             raw_ids = np.frombuffer(frame.read(components=1, attachment=1, dtype="i4"), np.int32)

@@ -1,10 +1,12 @@
 """The robot's body as its skills see it: what the driver reports, and what is asked of it."""
 
+from collections import deque
 from collections.abc import Iterable
 from math import hypot
 
 import numpy as np
 
+from devices.quadruped.look import Look
 from devices.quadruped.map import FloorMap
 from wire.bus import Node
 from wire.frames import body_to_enu
@@ -18,24 +20,29 @@ TILT_STEP_RAD = 0.1
 """A smaller change of the camera's tilt is no action of its own."""
 WALK_TILT_RAD = 0.45
 BUMPER_M = 0.5
+MOST_LOOKS = 24
+TOUCH_WEIGHT = 30.0
+"""Outlasts the beams that pass above or below what was touched for half a minute."""
 BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
 
 
 class Body:
     """One robot. `now_s` is the mesh's time, `clock_s` that of the skill at work, which stands while the skill does."""
 
-    def __init__(self, id: str, floor: FloorMap) -> None:
-        self.id, self.floor = id, floor
+    def __init__(self, id: str, floor: FloorMap, sighted: bool = False) -> None:
+        self.id, self.floor, self.sighted = id, floor, sighted
         self.now_s = self.clock_s = 0.0
         self.odometry: Odometry | None = None
         self.scan: LaserScan | None = None
         self.gripper: GripperState | None = None
         self.order: TrafficOrder | None = None
+        self.looks: deque[Look] = deque(maxlen=MOST_LOOKS)
         self.path_m: tuple[Vec2, ...] = ()
+        self.goal_id = ""
         self.note, self.fraction = "", 0.0
         self.travelled_m, self.action_steps = 0.0, 0
         self._counted_m: Vec2 | None = None
-        self._forward_mps = self._left_mps = self._yaw_rate_radps = 0.0
+        self._forward_mps = self._yaw_rate_radps = 0.0
         self._tilt_rad = WALK_TILT_RAD
         self._seq = self._grips = 0
         self._pending: GripperCommand | None = None
@@ -85,6 +92,15 @@ class Body:
         """The gripper is at work and its outcome not known yet."""
         return self._awaited is not None
 
+    @property
+    def tilt_rad(self) -> float:
+        """Of the camera, as last asked for."""
+        return self._tilt_rad
+
+    def looks_since(self, stamp_s: float) -> list[Look]:
+        """Pictures taken at that time or later."""
+        return [look for look in self.looks if look.stamp_s >= stamp_s]
+
     def room_ahead_m(self) -> float:
         """Free length in front of the body, as the last sweep saw it."""
         if self.scan is None:
@@ -108,11 +124,11 @@ class Body:
             self.action_steps += 1
         self._tilt_rad = tilt_down_rad
 
-    def grip(self, action: GripperAction, point_enu_m: Vec3, expected_type: str | None, goal_id: str) -> str:
+    def grip(self, action: GripperAction, point_enu_m: Vec3, expected_type: str | None) -> str:
         """Reach to a point. The outcome comes with the driver's `GripperState` of the returned command id."""
         self._grips += 1
         self.action_steps += 1
-        command_id = f"{goal_id[-50:]}-{self._grips}"
+        command_id = f"{self.goal_id[-50:]}-{self._grips}"
         self._pending = GripperCommand(
             robot=self.id,
             command_id=command_id,
@@ -159,7 +175,3 @@ class Body:
         if moved_m > COUNTED_M:
             self.travelled_m += moved_m
             self._counted_m = (x, y)
-
-
-TOUCH_WEIGHT = 30.0
-"""Outlasts the beams that pass above or below what was touched for half a minute."""

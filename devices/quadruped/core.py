@@ -5,10 +5,13 @@ from collections.abc import Sequence
 from devices.device import Device
 from devices.goals_journal import GoalsJournal
 from devices.quadruped.body import Body
+from devices.quadruped.look import Eyes
 from devices.quadruped.map import FloorMap
 from devices.quadruped.robot import Robot
 from devices.quadruped.work import QuadrupedWorker
 from wire.bus import CannotRun, Event, Node, Received
+from wire.messages.driver import CameraFrame
+from wire.model import Message
 from wire.site import Site
 
 CONTROL_S = 0.05
@@ -16,24 +19,26 @@ EARLY_S = 1e-6
 
 
 class QuadrupedCore:
-    """See wire.bus.Core."""
+    """Without eyes it walks by its lidar and reports nothing that it sees."""
 
-    def __init__(self, site: Site, id: str, boot_id: str, journal: GoalsJournal) -> None:
+    def __init__(self, site: Site, id: str, boot_id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
         row = next((robot for robot in site.robot if robot.id == id), None)
         if row is None:
             raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
         self._id = id
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
-        self._body = Body(id, FloorMap(site))
+        self._body = Body(id, FloorMap(site), sighted=eyes is not None)
         worker = QuadrupedWorker(Robot(self._body, site), boot_id)
         self._device = Device(id, boot_id, worker, journal, row.lost_hub_s)
-        self._journal = journal
+        self._journal, self._eyes = journal, eyes
         self._control_due_s = 0.0
 
     def start(self, node: Node) -> None:
         self._node = node
         for topic in ("odometry", "scan", "gripper_state", "traffic"):
             node.subscribe(topic, self._id)
+        if self._eyes is not None:
+            node.subscribe("frame", self._id)
         for hub_id in self._hub_ids:
             node.subscribe("health", hub_id)
         self._device.start(node)
@@ -42,7 +47,7 @@ class QuadrupedCore:
         self._body.now_s = now_s
         for event in events:
             if isinstance(event, Received):
-                self._body.hear(event.message)
+                self._hear(event.message)
             self._device.hear(event, now_s)
         if now_s < self._control_due_s - EARLY_S:
             return
@@ -50,6 +55,15 @@ class QuadrupedCore:
         self._device.step(now_s)
         if self._body.odometry is not None:
             self._body.publish(self._node)
+
+    def _hear(self, message: Message) -> None:
+        if not isinstance(message, CameraFrame):
+            self._body.hear(message)
+        elif self._eyes is not None:
+            seen = self._eyes.look(message, self._body.holding)
+            if seen is not None:
+                self._body.looks.append(seen[0])
+                self._node.publish("observation", seen[1], self._id)
 
     def stop(self) -> None:
         self._body.stand()

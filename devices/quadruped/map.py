@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import ceil, hypot
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +65,15 @@ class FloorMap:
         return Cell(min(max(row, 0), self.rows - 1), min(max(column, 0), self.columns - 1))
 
     def centre_m(self, cell: Cell) -> Vec2:
-        return (float(self._x[cell.row, cell.column]), float(self._y[cell.row, cell.column]))
+        return self.centre_of(cell.row, cell.column)
+
+    def centre_of(self, row: int, column: int) -> Vec2:
+        return (float(self._x[row, column]), float(self._y[row, column]))
+
+    def cells_of(self, points_m: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """(rows, columns) of many points; points outside get the nearest cells."""
+        columns, rows, _ = self._indices(points_m)
+        return rows, columns
 
     def inside(self, polygon_m: Sequence[Vec2]) -> Mask:
         """Cells whose centre lies in the polygon."""
@@ -133,7 +142,7 @@ class FloorMap:
         values: Grid = grid[rows, columns]
         return values
 
-    def _indices(self, points_m: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64], Mask]:
+    def _indices(self, points_m: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int64], NDArray[np.int64], Mask]:
         index = np.floor((points_m - self._origin) / CELL_M).astype(np.int64)
         columns, rows = index[:, 0], index[:, 1]
         known = (columns >= 0) & (columns < self.columns) & (rows >= 0) & (rows < self.rows)

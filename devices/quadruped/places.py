@@ -7,6 +7,7 @@ import numpy as np
 from devices.quadruped.map import Cell, FloorMap, Grid, Mask
 from devices.quadruped.path import NEEDED_M
 from wire.catalogue import catalogue
+from wire.frames import distance_m
 from wire.model import Vec2
 from wire.site import Door, Room
 
@@ -16,6 +17,7 @@ REACH_M = 1.2
 """Of the hand: from the body's centre to the nearest point of the thing, on the floor plane."""
 REACH_SPARE_M = 0.12
 COMFORT_M, COMFORT_PRICE = 0.75, 2.0
+OTHER_SIDE_M = 0.6
 MOST_PLACES = 400
 
 
@@ -45,7 +47,7 @@ def beside(
     half = half_width_m(type)
     fits = (floor.clearance_m >= NEEDED_M) & (away <= REACH_M + half - REACH_SPARE_M) & (away >= closest_m)
     for tried_m in not_from_m:
-        fits &= floor.distance_m(tried_m) > 0.5
+        fits &= floor.distance_m(tried_m) > OTHER_SIDE_M
     price: Grid = (COMFORT_PRICE * np.abs(away - half - COMFORT_M)).astype(np.float32)
     return {
         cell: extra
@@ -54,15 +56,24 @@ def beside(
     }
 
 
-def in_view(floor: FloorMap, point_m: Vec2, nearest_m: float, farthest_m: float) -> Mapping[Cell, float]:
-    """At a distance from which a thing is seen well, with no wall between."""
+def in_view(
+    floor: FloorMap, point_m: Vec2, nearest_m: float, farthest_m: float, not_from_m: tuple[Vec2, ...] = ()
+) -> Mapping[Cell, float]:
+    """At a distance from which a thing is seen well, with no wall between; not near where it was not seen from."""
     away = floor.distance_m(point_m)
     ring = (floor.clearance_m >= NEEDED_M) & (away <= farthest_m) & (away >= nearest_m)
+    for tried_m in not_from_m:
+        ring &= floor.distance_m(tried_m) > OTHER_SIDE_M
     return {
         cell: extra
         for cell, extra in _cells(floor, ring, np.zeros_like(away)).items()
         if floor.clear_of_walls(floor.centre_m(cell), point_m)
     }
+
+
+def within_reach(position_m: Vec2, point_m: Vec2, type: str) -> bool:
+    """Whether the hand gets to a thing from where the body stands."""
+    return distance_m(position_m, point_m) <= REACH_M + half_width_m(type)
 
 
 def half_width_m(type: str) -> float:

@@ -78,7 +78,7 @@ class QuadrupedWorker:
         return skill.fault_of(command)
 
     def begin(self, command: Command) -> None:
-        self._body.note, self._body.fraction = command.action, 0.0
+        self._body.goal_id, self._body.note, self._body.fraction = command.goal_id, command.action, 0.0
         self._skill = Pace(self._body, SKILLS[command.action].run(self._robot, command))
 
     def work(self, now_s: float) -> Outcome | None:

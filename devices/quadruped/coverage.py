@@ -1,0 +1,80 @@
+"""How much of a room has been looked at, and from where more of it would be seen."""
+
+from math import ceil
+
+import numpy as np
+
+from devices.quadruped.look import Look
+from devices.quadruped.map import CELL_M, FloorMap, Mask
+from devices.quadruped.path import NEEDED_M
+from wire.model import Vec2
+
+SEEN = 2.0
+"""A measured surface settles a place at once; being in view without one, from two places."""
+NEAR_M, FAR_M = 0.5, 4.0
+RAY_GAP_RAD = 0.03
+LATTICE_M = 0.5
+WALK_PRICE_PER_M = 0.04
+"""Walking a metre must show this share of the room more."""
+WALL_M = 0.05
+
+
+class Coverage:
+    """Of one room, since this was made."""
+
+    def __init__(self, floor: FloorMap, polygon_m: tuple[Vec2, ...]) -> None:
+        self._floor = floor
+        self._room = floor.inside(polygon_m) & (floor.walls_m > WALL_M)
+        self._score = np.zeros(self._room.shape, np.float32)
+        self._cells = max(1, int(self._room.sum()))
+
+    @property
+    def left(self) -> float:
+        """Share of the room that nobody has looked at."""
+        return float((self._room & (self._score < SEEN)).sum()) / self._cells
+
+    def take(self, look: Look) -> None:
+        """One picture more."""
+        self._score[self._in_view(look.camera_m, look.yaw_rad, look.hfov_rad)] += 1.0
+        if len(look.surface_m):
+            self._score[self._floor.cells_of(look.surface_m[:, :2])] = SEEN
+
+    def gain(self, camera_m: Vec2, yaw_rad: float, hfov_rad: float = 2.0 * np.pi) -> float:
+        """Share of the room that a look would show for the first time."""
+        seen = self._in_view(camera_m, yaw_rad, hfov_rad) & self._room & (self._score < SEEN)
+        return float(seen.sum()) / self._cells
+
+    def best_place(self, here_m: Vec2, not_at_m: list[Vec2]) -> tuple[Vec2, float] | None:
+        """Where to look around next, and what that would show; None when there is nowhere to stand."""
+        best: tuple[float, Vec2, float] | None = None
+        for place_m in self._lattice(not_at_m):
+            gain = self.gain(place_m, 0.0)
+            away = float(np.hypot(place_m[0] - here_m[0], place_m[1] - here_m[1]))
+            worth = gain - WALK_PRICE_PER_M * away
+            if best is None or worth > best[0] + 1e-9:
+                best = (worth, place_m, gain)
+        return None if best is None else (best[1], best[2])
+
+    def _lattice(self, not_at_m: list[Vec2]) -> list[Vec2]:
+        free = self._room & (self._floor.clearance_m >= NEEDED_M)
+        for tried_m in not_at_m:
+            free &= self._floor.distance_m(tried_m) > LATTICE_M
+        every = ceil(LATTICE_M / CELL_M)
+        rows, columns = np.nonzero(free)
+        chosen = (rows % every == 0) & (columns % every == 0)
+        if not chosen.any():
+            chosen = np.ones(len(rows), np.bool_)
+        return [self._floor.centre_of(int(r), int(c)) for r, c in zip(rows[chosen], columns[chosen], strict=True)]
+
+    def _in_view(self, camera_m: Vec2, yaw_rad: float, hfov_rad: float) -> Mask:
+        """Cells between which and the camera no wall stands."""
+        count = max(8, ceil(hfov_rad / RAY_GAP_RAD))
+        bearings = yaw_rad + np.linspace(-hfov_rad / 2.0, hfov_rad / 2.0, count)
+        ranges = np.arange(CELL_M, FAR_M, CELL_M)
+        points = np.stack([np.cos(bearings), np.sin(bearings)], axis=1)[:, None, :] * ranges[None, :, None]
+        rows, columns = self._floor.cells_of((points + np.array(camera_m)).reshape(-1, 2))
+        open_ = (self._floor.walls_m[rows, columns] > WALL_M).reshape(count, len(ranges))
+        visible = np.logical_and.accumulate(open_, axis=1) & (ranges > NEAR_M)
+        result = np.zeros(self._room.shape, np.bool_)
+        result[rows[visible.ravel()], columns[visible.ravel()]] = True
+        return result

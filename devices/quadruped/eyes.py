@@ -1,0 +1,87 @@
+"""The robot's own perception: the mast camera's pictures become looks for its skills and observations for the mesh."""
+
+import logging
+from dataclasses import replace
+
+import numpy as np
+
+from devices.quadruped.look import Look, Points, Thing
+from devices.vision.detector import Detector
+from devices.vision.layout import ROBOT
+from devices.vision.lens import Depth, Lens
+from devices.vision.look import Seen, look_at_frame
+from devices.vision.picture import PictureError
+from devices.vision.tracking import Tracker
+from devices.vision.view import floor_view
+from wire.messages.driver import CameraFrame
+from wire.messages.observation import ObservationBatch
+from wire.site import Site
+
+log = logging.getLogger("eyes")
+
+HAND_M = 0.5
+"""While something is carried, what is nearer to the camera is the load."""
+EVERY_PX = 8
+FARTHEST_M = 6.0
+
+
+class PictureEyes:
+    """Own perception of one robot."""
+
+    def __init__(self, site: Site, robot: str, boot_id: str, detector: Detector) -> None:
+        self._site, self._robot, self._boot_id, self._detector = site, robot, boot_id, detector
+        self._tracker = Tracker()
+        self._seq = 0
+
+    def look(self, frame: CameraFrame, carrying: bool) -> tuple[Look, ObservationBatch] | None:
+        """See devices.quadruped.look.Eyes."""
+        try:
+            seen = look_at_frame(frame, self._detector)
+        except PictureError as error:
+            log.warning("%s", error)
+            return None
+        if carrying:
+            seen = replace(seen, sightings=tuple(s for s in seen.sightings if s.depth_m > HAND_M))
+        tracked = self._tracker.update(seen)
+        view = floor_view(seen.lens, self._site.wall, self._site.door)
+        self._seq += 1
+        batch = ObservationBatch(
+            source=self._robot,
+            boot_id=self._boot_id,
+            seq=self._seq,
+            stamp_s=frame.stamp_s,
+            kind="robot",
+            objects=tracked.objects,
+            gone=tracked.gone,
+            view=view if view.polygon_m else None,
+        )
+        return self._look_of(seen), batch
+
+    def _look_of(self, seen: Seen) -> Look:
+        things = tuple(
+            Thing(s.detection.type, s.detection.confidence, s.position_enu_m, dict(s.detection.props))
+            for s in seen.sightings
+            if s.detection.type != ROBOT
+        )
+        lens = seen.lens
+        return Look(
+            stamp_s=seen.stamp_s,
+            camera_m=lens.position_enu_m[:2],
+            yaw_rad=lens.yaw_rad,
+            hfov_rad=2.0 * float(np.arctan(lens.width_px / 2.0 / lens.focal_px)),
+            things=things,
+            surface_m=surface_points(lens, seen.depth_m),
+        )
+
+
+def surface_points(lens: Lens, depth_m: Depth | None) -> Points:
+    """Every so many pixels of the depth picture as a point of the site."""
+    if depth_m is None:
+        return np.zeros((0, 3), np.float32)
+    half = EVERY_PX // 2
+    v, u = np.mgrid[half : lens.height_px : EVERY_PX, half : lens.width_px : EVERY_PX]
+    along = depth_m[half::EVERY_PX, half::EVERY_PX].ravel()
+    known = (along > 0.0) & (along < FARTHEST_M)
+    rays = lens.rays(u.ravel() + 0.5, v.ravel() + 0.5)[known]
+    points: Points = (np.array(lens.position_enu_m) + rays * along[known, None]).astype(np.float32)
+    return points

@@ -1,0 +1,49 @@
+"""What one picture told the robot, in the terms of its skills. No perception here, so that skills need none."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wire.frames import distance_m
+from wire.messages.driver import CameraFrame
+from wire.messages.observation import ObservationBatch
+from wire.model import Vec2, Vec3
+
+Points = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Thing:
+    """Something recognised in one picture."""
+
+    type: str
+    confidence: float
+    position_enu_m: Vec3
+    props: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Look:
+    """One picture."""
+
+    stamp_s: float
+    camera_m: Vec2
+    yaw_rad: float
+    hfov_rad: float
+    things: tuple[Thing, ...]
+    surface_m: Points
+    """(N, 3): a sample of the surfaces that the depth camera measured."""
+
+    def nearest(self, type: str, point_enu_m: Vec3, within_m: float) -> Thing | None:
+        """The thing of this type that is nearest to where it is believed to be."""
+        near = [t for t in self.things if t.type == type and distance_m(t.position_enu_m, point_enu_m) <= within_m]
+        return min(near, key=lambda t: distance_m(t.position_enu_m, point_enu_m), default=None)
+
+
+class Eyes(Protocol):
+    """Turns pictures into looks, and into what is reported to everybody."""
+
+    def look(self, frame: CameraFrame, carrying: bool) -> tuple[Look, ObservationBatch] | None:
+        """None when the frame holds no picture."""

@@ -1,0 +1,163 @@
+"""Skills that look: through a room, and at one thing."""
+
+from collections.abc import Generator
+from functools import partial
+from math import pi
+from typing import TypeVar
+
+from devices.quadruped import places
+from devices.quadruped.coverage import Coverage
+from devices.quadruped.gaze import look_around, look_at, take_pictures
+from devices.quadruped.handle import GATE_M
+from devices.quadruped.look import Thing
+from devices.quadruped.map import Cell
+from devices.quadruped.moves import Skilled
+from devices.quadruped.robot import Robot
+from devices.quadruped.walk import await_odometry, face, walk
+from devices.worker import Outcome
+from wire.catalogue import catalogue
+from wire.frames import distance_m
+from wire.messages.command import Command
+from wire.model import Id, Message, Vec2, Word
+from wire.site import Room
+
+ENOUGH_LEFT = 0.06
+"""The room has been seen when no more than this share is left."""
+WORTH_A_LOOK, WORTH_A_WALK = 0.03, 0.04
+MOST_PLACES, MOST_HEADINGS, HEADINGS = 4, 6, 12
+SEARCH_TILT_RAD = 0.42
+"""The picture then reaches from the floor 0.7 m ahead to things above the camera's own height."""
+SURE_AT_ONCE, SURE_TWICE, SAME_PLACE_M = 0.85, 0.5, 0.6
+HFOV_RAD = pi / 2.0
+SMALL_M, SMALL_VIEW_M, LARGE_VIEW_M = 0.35, (0.8, 1.6), (1.0, 2.2)
+
+End = TypeVar("End")
+
+
+class Search(Message):
+    """A room, and optionally types of objects whose sight ends the search."""
+
+    room: Id
+    looking_for: tuple[Word, ...] = ()
+
+
+class Finder:
+    """Takes in every picture of a search: what of the room it shows, and whether it shows what is looked for."""
+
+    def __init__(self, robot: Robot, room: Room, looking_for: tuple[str, ...]) -> None:
+        self._body, self._looking_for = robot.body, looking_for
+        self._inside = robot.body.floor.inside(room.polygon_m)
+        self.coverage = Coverage(robot.body.floor, room.polygon_m)
+        self._candidates: list[Thing] = []
+        self._from_s = robot.body.now_s
+        self.found: Thing | None = None
+
+    def watch(self, steps: Generator[None, None, End]) -> Generator[None, None, End | None]:
+        """Do these steps, but end them as soon as something is found."""
+        while self.found is None:
+            try:
+                next(steps)
+            except StopIteration as end:
+                self._take_in()
+                result: End = end.value
+                return result
+            self._take_in()
+            yield
+        steps.close()
+        return None
+
+    def _take_in(self) -> None:
+        for look in self._body.looks:
+            if look.stamp_s <= self._from_s:
+                continue
+            self._from_s = look.stamp_s
+            self.coverage.take(look)
+            for thing in look.things:
+                self._consider(thing)
+
+    def _consider(self, thing: Thing) -> None:
+        cell = self._body.floor.cell(thing.position_enu_m[:2])
+        if thing.type not in self._looking_for or not self._inside[cell.row, cell.column]:
+            return
+        before = any(
+            other.type == thing.type and distance_m(other.position_enu_m, thing.position_enu_m) < SAME_PLACE_M
+            for other in self._candidates
+        )
+        if thing.confidence >= (SURE_TWICE if before else SURE_AT_ONCE):
+            self.found = self.found or thing
+        elif thing.confidence >= SURE_TWICE:
+            self._candidates.append(thing)
+
+
+def explore(robot: Robot, command: Command) -> Skilled:
+    """Go through a room and look at all of it from a few places; ends early when one of `looking_for` is seen."""
+    body, room = robot.body, robot.room(command.room or "")
+    assert room is not None, "the parameters were checked when the command was accepted"
+    if not body.sighted:
+        return Outcome("failed", "precondition", "this robot runs without its camera")
+    yield from await_odometry(body)
+    finder = Finder(robot, room, command.looking_for)
+    places_m: list[Vec2] = []
+    while finder.coverage.left > ENOUGH_LEFT and len(places_m) < MOST_PLACES:
+        body.note = f"looking through {room.name}, {finder.coverage.left:.0%} left"
+        body.fraction = 1.0 - finder.coverage.left
+        best = finder.coverage.best_place(body.position_m, places_m)
+        if best is None or (places_m and best[1] < WORTH_A_WALK):
+            break
+        place_m = best[0]
+        body.tilt(SEARCH_TILT_RAD)
+        walked = yield from finder.watch(walk(body, partial(places.near_point, body.floor, place_m)))
+        if finder.found is None and walked is not None and not walked.arrived and not places_m:
+            return Outcome("failed", walked.code, f"{room.name}: {walked.reason}")
+        places_m.append(place_m)
+        yield from finder.watch(_look_round(robot, finder))
+        if finder.found is not None:
+            break
+    if finder.found is not None:
+        return Outcome("done", "ok", f"found {finder.found.type} in {room.name}", finder.found.position_enu_m)
+    wanted = f"; no {', '.join(command.looking_for)} seen" if command.looking_for else ""
+    return Outcome("done", "ok", f"looked at {1.0 - finder.coverage.left:.0%} of {room.name}{wanted}")
+
+
+def _look_round(robot: Robot, finder: Finder) -> Generator[None, None, None]:
+    """Turn to where most is still to be seen, as long as that is worth a look."""
+    body = robot.body
+    for _ in range(MOST_HEADINGS):
+        yaws = [body.yaw_rad + 2.0 * pi * k / HEADINGS for k in range(HEADINGS)]
+        gains = [finder.coverage.gain(body.position_m, yaw, HFOV_RAD) for yaw in yaws]
+        best = max(range(HEADINGS), key=lambda k: (gains[k] - 0.01 * min(k, HEADINGS - k), -k))
+        if gains[best] < WORTH_A_LOOK:
+            return
+        yield from face(body, yaws[best])
+        yield from take_pictures(body, 1)
+
+
+def inspect(robot: Robot, command: Command) -> Skilled:
+    """Look at an object from near by, to see whether it is there and in what state."""
+    body, target = robot.body, command.target
+    assert target is not None, "the parameters were checked when the command was accepted"
+    if not body.sighted:
+        return Outcome("failed", "precondition", "this robot runs without its camera")
+    yield from await_odometry(body)
+    row = catalogue().get(target.type)
+    small = row is not None and max(row.size_m) < SMALL_M
+    nearest_m, farthest_m = SMALL_VIEW_M if small else LARGE_VIEW_M
+    point, gate_m = target.position_enu_m, GATE_M + 2.0 * target.spread_m
+    tried: list[Vec2] = []
+
+    def goals() -> dict[Cell, float]:
+        return dict(places.in_view(body.floor, point[:2], nearest_m, farthest_m, tuple(tried)))
+
+    for _ in range(2):
+        walked = yield from walk(body, goals)
+        if not walked.arrived and not tried:
+            return Outcome("failed", walked.code, f"{target.type}: {walked.reason}")
+        thing = (yield from look_at(body, target.type, point, gate_m)) if walked.arrived else None
+        if thing is None:
+            thing = yield from look_around(body, target.type, point, gate_m)
+        body.action_steps += 1
+        if thing is not None:
+            states = ", ".join(f"{name} {value:.0%}" for name, value in sorted(thing.props.items()))
+            return Outcome("done", "ok", f"saw {target.type} {states}".rstrip(), thing.position_enu_m)
+        tried.append(body.position_m)
+    return Outcome("failed", "not_there", f"looked where {target.type} was believed to be and did not see it")

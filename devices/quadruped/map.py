@@ -56,7 +56,8 @@ class FloorMap:
         self._seen_s: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._hit_m = np.zeros((self.rows, self.columns, 2), np.float32)
         self._window = _window(ceil(REACH_M / CELL_M))
-        self._clearance: Grid | None = None
+        self._obstacles: Grid | None = None
+        self._hits: NDArray[np.float32] | None = None
 
     def cell(self, point_m: Vec2) -> Cell:
         """The cell of a point; a point outside gets the nearest."""
@@ -111,24 +112,34 @@ class FloorMap:
         flat[cells] = np.minimum(flat[cells] + weight, max(weight, MOST))
         self._seen_s.reshape(-1)[cells] = now_s
         self._hit_m.reshape(-1, 2)[cells] = ends_m[first]
-        self._clearance = None
+        self._changed()
 
     def forget(self, before_s: float) -> None:
         """Drop obstacles not seen since: things move, and a blocked way is worth another look."""
         self._weight[self._seen_s < before_s] = 0.0
-        self._clearance = None
+        self._changed()
+
+    @property
+    def obstacles_m(self) -> Grid:
+        """From every cell's centre to the nearest obstacle that was seen, at most REACH_M."""
+        if self._obstacles is None:
+            self._obstacles = self._measure()
+        return self._obstacles
 
     @property
     def clearance_m(self) -> Grid:
         """From every cell's centre to the nearest wall or obstacle, at most REACH_M."""
-        if self._clearance is None:
-            self._clearance = self._measure()
-        return self._clearance
+        return np.minimum(self.walls_m, self.obstacles_m)
 
-    def hits_m(self) -> NDArray[np.float32]:
-        """Points of the obstacles that were seen (not the site's walls), one in each cell."""
-        hits: NDArray[np.float32] = self._hit_m[self._weight >= SOLID]
-        return hits
+    def room_m(self, start_m: Vec2, end_m: Vec2) -> float:
+        """From a straight line to the nearest obstacle that was seen: cheap enough for every step."""
+        if self._hits is None:
+            self._hits = self._hit_m[self._weight >= SOLID]
+        along = np.subtract(end_m, start_m)
+        away = self._hits - np.array(start_m, np.float32)
+        t = np.clip(away @ along / max(float(along @ along), 1e-9), 0.0, 1.0)
+        gaps = away - t[:, None] * along
+        return float(np.sqrt((gaps**2).sum(axis=1).min(initial=REACH_M**2)))
 
     def clear_of_walls(self, start_m: Vec2, end_m: Vec2, margin_m: float = 0.06) -> bool:
         """Whether the straight line crosses no wall of the site."""
@@ -152,10 +163,13 @@ class FloorMap:
         steps = np.arange(0.0, float(free_m.max(initial=0.0)), CELL_M)
         points = origin + ray[:, None, :] * steps[None, :, None]
         columns, rows, known = self._indices(points[steps[None, :] < free_m[:, None]])
-        cells = np.unique((rows * self.columns + columns)[known])
-        flat = self._weight.reshape(-1)
-        flat[cells] = np.maximum(flat[cells] + MISS, 0.0)
-        self._clearance = None
+        passed = np.zeros(self._weight.shape, np.bool_)
+        passed[rows[known], columns[known]] = True
+        self._weight[passed] = np.maximum(self._weight[passed] + MISS, 0.0)
+        self._changed()
+
+    def _changed(self) -> None:
+        self._obstacles = self._hits = None
 
     def _to_wall(self, start_m: Vec2, end_m: Vec2, thickness_m: float) -> Grid:
         """Distance of every cell's centre to a straight piece of wall, which ends flush at its jambs."""
@@ -168,7 +182,7 @@ class FloorMap:
         return distances
 
     def _measure(self) -> Grid:
-        result = self.walls_m.copy()
+        result: Grid = np.full_like(self.walls_m, REACH_M)
         rows, columns = np.nonzero(self._weight >= SOLID)
         near_rows = (rows[:, None] + self._window[:, 0]).ravel()
         near_columns = (columns[:, None] + self._window[:, 1]).ravel()

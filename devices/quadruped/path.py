@@ -29,7 +29,9 @@ def prices(floor: FloorMap, start_m: Vec2, others_m: tuple[Vec2, ...] = (), othe
     for other_m in others_m:
         clearance = np.minimum(clearance, np.maximum(floor.distance_m(other_m) - other_radius_m, 0.0))
     price = 1.0 + NEARNESS_PRICE * np.clip((WANTED_M - clearance) / (WANTED_M - NEEDED_M), 0.0, 1.0)
-    escape = (floor.distance_m(start_m) < ESCAPE_M) & (clearance >= ESCAPE_NEEDED_M)
+    start = floor.cell(start_m)
+    stands_tight = clearance[start.row, start.column] < NEEDED_M
+    escape = (floor.distance_m(start_m) < ESCAPE_M) & (clearance >= ESCAPE_NEEDED_M) & stands_tight
     tight = np.where(escape, ESCAPE_PRICE, np.inf)
     result: Grid = np.where(clearance >= NEEDED_M, price, tight).astype(np.float32)
     return result

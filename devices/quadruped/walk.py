@@ -22,11 +22,12 @@ Goals = Callable[[], Mapping[Cell, float]]
 MAX_PLANS = 10
 CHECK_AHEAD_M, TIGHT_M = 2.5, 0.37
 OFF_WAY_M = 0.4
+LEAVING_M = 0.2
 STALL_S, STALL_M, STALL_RAD = 2.5, 0.05, 0.15
 BACK_OFF_S, BACK_OFF_MPS = 0.8, -0.3
 OTHER_STOP_M, OTHER_PATIENCE_S = 0.95, 4.0
 STALE_S = 5.0
-NO_WAY_WAIT_S = 3.0
+NO_WAY_WAIT_S, NEXT_SWEEP_S = 3.0, 0.25
 TOUCHING_S = 0.3
 
 
@@ -99,6 +100,7 @@ def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
         if not trouble:
             return Walked()
         body.note = f"{trouble}, looking for another way"
+        yield from wait(body, NEXT_SWEEP_S)
     return Walked("blocked", f"gave up after {MAX_PLANS} tries: {body.note}")
 
 
@@ -142,8 +144,8 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
 
 
 def _limit(body: Body) -> float:
-    cell = body.floor.cell(body.position_m)
-    clearance = float(body.floor.clearance_m[cell.row, cell.column])
+    cell, here = body.floor.cell(body.position_m), body.position_m
+    clearance = min(float(body.floor.walls_m[cell.row, cell.column]), body.floor.room_m(here, here))
     share = max(0.0, min(1.0, (clearance - path.NEEDED_M) / (path.WANTED_M - path.NEEDED_M)))
     return NEAR_MPS + share * (CRUISE_MPS - NEAR_MPS)
 
@@ -151,15 +153,17 @@ def _limit(body: Body) -> float:
 def _is_free(body: Body, corners_m: tuple[Vec2, ...]) -> bool:
     """Whether the next piece of the way still has room for the robot."""
     here, ahead_m = body.position_m, CHECK_AHEAD_M
+    skip_m = path.ESCAPE_M if body.floor.room_m(here, here) < TIGHT_M else LEAVING_M
     for corner in corners_m:
         length = hypot(corner[0] - here[0], corner[1] - here[1])
         share = min(1.0, ahead_m / max(length, 1e-6))
         there = (here[0] + share * (corner[0] - here[0]), here[1] + share * (corner[1] - here[1]))
-        gaps = body.floor.along(body.floor.clearance_m, here, there)
-        leaving = 8 if here == body.position_m else 0
-        # What is already beside the robot does not block it: it may stand near to things.
-        if (gaps[leaving:] < TIGHT_M).any():
+        # What is beside the robot already does not block it: it may stand near to things, and leave.
+        skip = min(1.0, skip_m / max(length, 1e-6))
+        begin = (here[0] + skip * (there[0] - here[0]), here[1] + skip * (there[1] - here[1]))
+        if skip < 1.0 and body.floor.room_m(begin, there) < TIGHT_M:
             return False
+        skip_m = max(0.0, skip_m - length)
         ahead_m -= length
         here = corner
         if ahead_m <= 0.0:

@@ -44,6 +44,10 @@ class Cameras:
             self._slots.append(_Slot(camera, pose, every, (index * every // len(rows)) % every))
         self._seq = {slot.id: 0 for slot in self._slots}
 
+    def due(self, tick: int) -> bool:
+        """Whether any camera takes a picture at this tick."""
+        return any(tick % slot.every == slot.phase for slot in self._slots)
+
     def shoot(self, renderer: Renderer, tick: int, now_s: float) -> list[CameraFrame]:
         """The pictures due at this tick."""
         due = [slot for slot in self._slots if tick % slot.every == slot.phase]

@@ -5,12 +5,13 @@ from math import radians
 
 from sim.bullet import STEP_S
 from sim.cameras import Cameras
+from sim.carrier import Arm
 from sim.locomotion import Locomotion
 from sim.physics import Physics, RobotStart
 from sim.render import Renderer
 from sim.scene import Scene
 from wire.bus import Event, Node, Received
-from wire.messages.driver import VelocityCommand
+from wire.messages.driver import GripperCommand, VelocityCommand
 from wire.site import Site, SiteError
 
 MOST_TICKS_AT_ONCE = 10
@@ -30,6 +31,7 @@ class SimCore:
         self._step_s = site.clock.step_s
         self._substeps = _substeps(site)
         self._legs = {r.id: Locomotion(r.id, self.physics, site.sim.seed, self._step_s) for r in site.robot}
+        self._arms = {r.id: Arm(r.id, scene, self.physics) for r in site.robot}
         self._cameras = Cameras(site, self.physics, self._legs)
         self._began_s: float | None = None
         self._tick = -1
@@ -37,6 +39,7 @@ class SimCore:
     def start(self, node: Node) -> None:
         self._node = node
         node.subscribe("velocity")
+        node.subscribe("gripper_command")
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
         if self._began_s is None:
@@ -58,6 +61,8 @@ class SimCore:
         match event:
             case Received(message=VelocityCommand() as command) if command.robot in self._legs:
                 self._legs[command.robot].obey(command, now_s)
+            case Received(message=GripperCommand() as command) if command.robot in self._arms:
+                self._arms[command.robot].command(command, now_s)
 
     def _advance(self, now_s: float) -> None:
         """One tick: physics first, then what the sensors notice of it."""
@@ -67,7 +72,13 @@ class SimCore:
             self.physics.advance(self._substeps)
         for legs in self._legs.values():
             legs.publish(self._node, self._tick, now_s)
-        if self._renderer is not None:
+        for robot, arm in self._arms.items():
+            arm.follow()
+            arm.advance(now_s)
+            state = arm.report(now_s)
+            if state is not None:
+                self._node.publish("gripper_state", state, robot)
+        if self._renderer is not None and self._cameras.due(self._tick):
             self._publish_frames(self._renderer, now_s)
 
     def _publish_frames(self, renderer: Renderer, now_s: float) -> None:
@@ -76,7 +87,9 @@ class SimCore:
         self.physics.moved.clear()
         for robot, rover in self.physics.robots.items():
             motion = rover.motion()
-            renderer.set_robot(robot, (*motion.position_m, 0.0), motion.yaw_rad)
+            renderer.set_robot(
+                robot, (*motion.position_m, 0.0), motion.yaw_rad, holding=self._arms[robot].held is not None
+            )
         for frame in self._cameras.shoot(renderer, self._tick, now_s):
             self._node.publish("frame", frame, frame.camera)
 

@@ -122,6 +122,10 @@ class Physics:
         elif key not in self._loose:
             self._loose[key] = self._add_loose(body)
 
+    def carry(self, key: int, position_m: Vec3, yaw_rad: float) -> None:
+        """Move a thing that a hand holds or lets go, with all that rests in or on it."""
+        self.moved |= move_with_contents(self.scene, key, position_m, yaw_rad)
+
     def _drop_body(self, key: int) -> None:
         bullet_body = self._loose.pop(key, None)
         if bullet_body is not None:
@@ -174,8 +178,7 @@ def move_with_contents(scene: Scene, key: int, position_m: Vec3, yaw_rad: float)
     before, after = Box(body.position_m, (0.0, 0.0, 0.0), body.yaw_rad), Box(position_m, (0.0, 0.0, 0.0), yaw_rad)
     body.position_m, body.yaw_rad = position_m, yaw_rad
     moved = {key}
-    for child_key in sorted(scene.bodies):
-        child = scene.bodies[child_key]
+    for child_key, child in scene.bodies.items():
         if child.parent == key:
             offset_m = before.local(child.position_m)
             turned = child.yaw_rad + yaw_rad - before.yaw_rad

@@ -3,17 +3,22 @@
 from collections.abc import Sequence
 from math import radians
 
+from sim.appliances import Appliances
 from sim.bullet import STEP_S
 from sim.cameras import Cameras
 from sim.carrier import Arm
+from sim.faults import Faults
+from sim.judge import Judge
 from sim.locomotion import Locomotion
 from sim.physics import Physics, RobotStart
 from sim.render import Renderer
 from sim.scene import Scene
-from wire.bus import Event, Node, Received
+from wire.bus import Event, Node, Received, Request
 from wire.messages.driver import GripperCommand, VelocityCommand
+from wire.messages.truth import JudgeRequest, TruthState, TruthTask
 from wire.site import Site, SiteError
 
+JUDGE_HZ = 2.0
 MOST_TICKS_AT_ONCE = 10
 """A simulator that has fallen behind the wall clock by more lets the time go."""
 
@@ -21,7 +26,7 @@ MOST_TICKS_AT_ONCE = 10
 class SimCore:
     """Without a renderer there are no pictures; everything else is the same."""
 
-    def __init__(self, site: Site, scene: Scene, renderer: Renderer | None) -> None:
+    def __init__(self, site: Site, scene: Scene, task: TruthTask, renderer: Renderer | None) -> None:
         if site.sim is None:
             raise SiteError(f"{site.name}: there is no [sim] table; add one with a seed, or start no sim process")
         self.scene = scene
@@ -33,6 +38,10 @@ class SimCore:
         self._legs = {r.id: Locomotion(r.id, self.physics, site.sim.seed, self._step_s) for r in site.robot}
         self._arms = {r.id: Arm(r.id, scene, self.physics) for r in site.robot}
         self._cameras = Cameras(site, self.physics, self._legs)
+        self._appliances = Appliances(scene) if site.sim.smart_appliances else None
+        self._faults = Faults(site.sim.fault, site.sim.seed)
+        self._judge = Judge(scene, self.physics, task)
+        self._judge_every = max(1, round(1.0 / (JUDGE_HZ * self._step_s)))
         self._began_s: float | None = None
         self._tick = -1
 
@@ -40,6 +49,7 @@ class SimCore:
         self._node = node
         node.subscribe("velocity")
         node.subscribe("gripper_command")
+        node.serve("judge")
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
         if self._began_s is None:
@@ -63,6 +73,8 @@ class SimCore:
                 self._legs[command.robot].obey(command, now_s)
             case Received(message=GripperCommand() as command) if command.robot in self._arms:
                 self._arms[command.robot].command(command, now_s)
+            case Request(message=JudgeRequest() as request):
+                event.reply(self._judge.verdict(request, now_s, now_s - (self._began_s or 0.0)))
 
     def _advance(self, now_s: float) -> None:
         """One tick: physics first, then what the sensors notice of it."""
@@ -70,28 +82,37 @@ class SimCore:
             legs.watch(now_s)
         if self._tick > 0:
             self.physics.advance(self._substeps)
-        for legs in self._legs.values():
+        for robot, legs in self._legs.items():
             legs.publish(self._node, self._tick, now_s)
-        for robot, arm in self._arms.items():
-            arm.follow()
-            arm.advance(now_s)
-            state = arm.report(now_s)
-            if state is not None:
-                self._node.publish("gripper_state", state, robot)
+            self._publish_arm(robot, now_s)
         if self._renderer is not None and self._cameras.due(self._tick):
-            self._publish_frames(self._renderer, now_s)
+            self._take_pictures(self._renderer, now_s)
+        for frame in self._faults.due_frames(now_s):
+            self._node.publish("frame", frame, frame.camera)
+        for report in self._appliances.reports(now_s) if self._appliances is not None else ():
+            self._node.publish("device_report", self._faults.distort(report), report.device)
+        if self._tick % self._judge_every == 0:
+            self._judge.watch()
+            self._node.publish("truth", TruthState(stamp_s=now_s, world=self._judge.world(now_s)))
 
-    def _publish_frames(self, renderer: Renderer, now_s: float) -> None:
+    def _publish_arm(self, robot: str, now_s: float) -> None:
+        arm = self._arms[robot]
+        arm.follow()
+        arm.advance(now_s)
+        state = arm.report(now_s)
+        if state is not None:
+            self._node.publish("gripper_state", state, robot)
+
+    def _take_pictures(self, renderer: Renderer, now_s: float) -> None:
         for key in sorted(self.physics.moved):
             renderer.update(self.scene.bodies[key])
         self.physics.moved.clear()
         for robot, rover in self.physics.robots.items():
             motion = rover.motion()
-            renderer.set_robot(
-                robot, (*motion.position_m, 0.0), motion.yaw_rad, holding=self._arms[robot].held is not None
-            )
+            holding = self._arms[robot].held is not None
+            renderer.set_robot(robot, (*motion.position_m, 0.0), motion.yaw_rad, holding)
         for frame in self._cameras.shoot(renderer, self._tick, now_s):
-            self._node.publish("frame", frame, frame.camera)
+            self._faults.pass_frame(frame, now_s)
 
 
 def _substeps(site: Site) -> int:

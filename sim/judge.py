@@ -1,0 +1,83 @@
+"""The evaluator's memory and verdict: which rooms were entered, which things were seen, which goals are true."""
+
+from math import hypot
+
+from sim.boxes import body_box
+from sim.cameras import MAST_FOCAL_PX, MAST_HEIGHT_PX, MAST_WIDTH_PX
+from sim.physics import Physics
+from sim.rover import Rover
+from sim.scene import Scene
+from sim.sight import is_visible, obstacles
+from sim.truth import room_of, true_world
+from wire.frames import project
+from wire.goals import holds
+from wire.messages.goal import Goal
+from wire.messages.operator import GoalState
+from wire.messages.truth import JudgeReply, JudgeRequest, TruthTask
+from wire.messages.world import WorldState
+
+SEEN_WITHIN_M = 3.0
+
+
+class Judge:
+    def __init__(self, scene: Scene, physics: Physics, task: TruthTask) -> None:
+        self._scene = scene
+        self._physics = physics
+        self._task = task
+        self._visited: set[str] = set()
+        self._verified: set[int] = set()
+        self._seq = 0
+
+    def watch(self) -> None:
+        """Note where the robots are and what their mast cameras see from near."""
+        for id, rover in self._physics.robots.items():
+            room = room_of(self._scene, rover.motion().position_m)
+            if room is not None:
+                self._visited.add(room)
+            self._verified |= self._seen_from(id, rover)
+
+    def _seen_from(self, id: str, rover: Rover) -> set[int]:
+        eye_m, yaw_rad = rover.eye_m(), rover.motion().yaw_rad
+        near = []
+        for key, body in self._scene.bodies.items():
+            if key in self._verified or body.gone:
+                continue
+            centre_m = body_box(body).centre_m
+            if hypot(centre_m[0] - eye_m[0], centre_m[1] - eye_m[1]) <= SEEN_WITHIN_M and _in_picture(
+                centre_m, eye_m, yaw_rad, rover.tilt_down_rad
+            ):
+                near.append(key)
+        if not near:
+            return set()
+        around = obstacles(self._scene, [r.box() for other, r in self._physics.robots.items() if other != id])
+        return {key for key in near if is_visible(self._scene, around, eye_m, key)}
+
+    def world(self, now_s: float) -> WorldState:
+        self._seq += 1
+        robots = {id: rover.motion() for id, rover in self._physics.robots.items()}
+        return true_world(self._scene, robots, self._visited, self._verified, now_s, self._seq)
+
+    def verdict(self, request: JudgeRequest, now_s: float, sim_s: float) -> JudgeReply:
+        """Judge the goals asked about, or the scene's own."""
+        goals = self._task.goals if request.goals is None else request.goals
+        world = self.world(now_s)
+        states = tuple(_state(goal, world) for goal in goals)
+        return JudgeReply(
+            stamp_s=now_s,
+            task=self._task,
+            goals=states,
+            success=all(state.holds for state in states),
+            collisions=self._physics.collisions,
+            sim_s=sim_s,
+        )
+
+
+def _state(goal: Goal, world: WorldState) -> GoalState:
+    return GoalState(goal=goal, holds=holds(goal, world))
+
+
+def _in_picture(
+    point_m: tuple[float, float, float], eye_m: tuple[float, float, float], yaw_rad: float, tilt_down_rad: float
+) -> bool:
+    pixel = project(point_m, eye_m, yaw_rad, tilt_down_rad, MAST_WIDTH_PX, MAST_HEIGHT_PX, MAST_FOCAL_PX)
+    return pixel is not None and 0.0 <= pixel[0] < MAST_WIDTH_PX and 0.0 <= pixel[1] < MAST_HEIGHT_PX

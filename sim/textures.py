@@ -27,7 +27,7 @@ def layers() -> NDArray[np.uint8]:
         FABRIC: _fabric(rng),
         BRICK: _brick(rng),
         MARBLE: _marble(rng),
-        METAL: 0.90 + 0.07 * _noise(rng, 24.0, 0.6),
+        METAL: 0.94 + 0.022 * _noise(rng, 24.0, 0.6),
         PAGES: _pages(rng),
         LEAVES: 0.75 + 0.25 * np.tanh(2.0 * _noise(rng, 3.0, 3.0)),
         PLASTER: 0.96 + 0.03 * _noise(rng, 10.0, 10.0) + 0.01 * _noise(rng, 1.0, 1.0),

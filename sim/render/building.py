@@ -15,15 +15,14 @@ from sim.scene import Door, Rgb, Room, Scene, Vec2, Vec3, Wall
 OUTSIDE: Rgb = (0.80, 0.78, 0.74)
 CEILING: Rgb = (0.95, 0.95, 0.93)
 FRAME: Rgb = (0.93, 0.91, 0.87)
-FLOOR_RGB: dict[int, Rgb] = {
-    textures.WOOD: (0.72, 0.53, 0.35),
-    textures.TILE: (0.80, 0.82, 0.83),
-    textures.CARPET: (0.64, 0.60, 0.56),
-    textures.MARBLE: (0.88, 0.87, 0.85),
-    textures.BRICK: (0.66, 0.42, 0.34),
+FLOORS: dict[int, tuple[Rgb, ...]] = {
+    textures.WOOD: ((0.72, 0.53, 0.35), (0.56, 0.39, 0.25), (0.82, 0.68, 0.50)),
+    textures.TILE: ((0.80, 0.82, 0.83), (0.72, 0.70, 0.66), (0.62, 0.68, 0.70)),
+    textures.CARPET: ((0.64, 0.60, 0.56), (0.48, 0.52, 0.58), (0.70, 0.64, 0.52)),
+    textures.MARBLE: ((0.88, 0.87, 0.85), (0.74, 0.76, 0.78)),
 }
+ANY_FLOOR: tuple[Rgb, ...] = ((0.75, 0.72, 0.68),)
 FRAME_WIDTH_M = 0.07
-SKIRTING_M = (0.015, 0.08)
 
 
 class RoomFinder:
@@ -48,7 +47,7 @@ class RoomFinder:
 def building_rows(scene: Scene) -> Rows:
     """All that never moves."""
     finder = RoomFinder(scene.rooms)
-    rows = [row for i, room in enumerate(scene.rooms) for row in _slabs(i, room, _ceiling_m(scene))]
+    rows = [row for i, room in enumerate(scene.rooms) for row in _slabs(i, room, _ceiling_m(scene), scene.seed)]
     for i, wall in enumerate(scene.walls):
         for start, end in _solid(wall, scene.doors):
             rows += _wall_rows(wall, start, end, (0.0, wall.height_m), WALL_ID + i, scene.rooms, finder)
@@ -73,10 +72,11 @@ def _row(
     return (axes, centre, rgb, surface, 0.0, room, row_id, shape, rooms)
 
 
-def _slabs(index: int, room: Room, height_m: float) -> list[Row]:
+def _slabs(index: int, room: Room, height_m: float, seed: int) -> list[Row]:
     """Floor seen from above and ceiling seen from below."""
     rows = []
-    rgb = FLOOR_RGB.get(room.floor_texture, (0.75, 0.72, 0.68))
+    shades = FLOORS.get(room.floor_texture, ANY_FLOOR)
+    rgb = shades[(seed + index) % len(shades)]
     for a, b, c in triangles(room.polygon_m):
         one, two = (b[0] - a[0], b[1] - a[1], 0.0), (c[0] - a[0], c[1] - a[1], 0.0)
         floor, ceiling = (one, two, (0.0, 0.0, 1.0)), (two, one, (0.0, 0.0, -1.0))

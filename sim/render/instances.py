@@ -105,7 +105,8 @@ def part_rows(parts: Sequence[Part], size_m: Vec3) -> Rows:
         row["axes"] = _axes(part.yaw_rad, part.pitch_rad) * np.array(part.size_m)[:, None]
         row["rgb"], row["surface"], row["emission"] = part.rgb, part.texture, part.emission
     # Larger than the footprint by what is soft of it, and above the floor by less than anything's height.
-    rows[-1]["axes"] = np.diag((size_m[0] * 1.15 + 0.10, size_m[1] * 1.15 + 0.10, 0.008))
+    depth_m, width_m = (side_m * 1.12 + min(0.10, 0.25 * side_m) for side_m in size_m[:2])
+    rows[-1]["axes"] = np.diag((depth_m, width_m, 0.008))
     rows[-1]["shape"] = SHADOW
     return rows
 

@@ -81,6 +81,8 @@ void main() {
     seen *= texture(surfaces, vec3(picture, layer)).rgb;
 #endif
 #ifdef PER_PIXEL
+    // A skirting board along the foot of every wall.
+    if (world.z < 0.08 && abs(facing.z) < 0.5) seen = vec3(world.z < 0.07 ? 0.90 : 0.70);
     seen *= light(world, facing, lamp, extent);
 #endif
     out_rgb = vec4(seen, 1.0);

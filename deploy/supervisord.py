@@ -76,14 +76,15 @@ def _program(row: Process, places: Places) -> str:
         args="".join(f" {_word(a)}" for a in row.args),
         priority=_FIRST.get(row.role, 100),
         autostart=str(row.autostart).lower(),
-        environment=_environment(places.credentials),
+        environment=_environment(places),
     )
 
 
-def _environment(credentials: Path) -> str:
+def _environment(places: Places) -> str:
     """One thread per process: the mesh has more processes than the machine has cores."""
     values = {
-        "R2X_CREDENTIALS": str(credentials),
+        "R2X_CREDENTIALS": str(places.credentials),
+        "R2X_STATE": str(places.run_dir),
         "PYTHONPATH": os.environ.get("PYTHONPATH", ""),
         "PYTHONUNBUFFERED": "1",
         "OMP_NUM_THREADS": "1",

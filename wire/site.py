@@ -1,5 +1,6 @@
 """The site file (TOML): what the owner knows of the building and what runs where. Frozen models, no unknown fields."""
 
+import os
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -166,3 +167,13 @@ def _tuples(value: Any) -> Any:
     if isinstance(value, dict):
         return {k: _tuples(v) for k, v in value.items()}
     return value
+
+
+STATE_VARIABLE = "R2X_STATE"
+
+
+def state_dir(site: Site) -> Path:
+    """Where this site's processes keep what must outlive them (journals); made when missing."""
+    folder = Path(os.environ.get(STATE_VARIABLE) or Path(".run") / site.name)
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

@@ -3,8 +3,8 @@
 from hub.facts import handle
 from hub.records import Thing
 from hub.world import World
-from wire.messages.command import Command, Result
-from wire.messages.plan import Action
+from wire.messages.command import Result
+from wire.messages.plan import Action, PlanNode
 
 CHANGES: dict[Action, tuple[str, bool]] = {
     "open": ("isOpen", True),
@@ -19,31 +19,31 @@ _SURE_M2 = 0.05**2
 _SURE_BELIEF = 3.5
 
 
-def apply(world: World, command: Command, result: Result) -> None:
+def apply(world: World, node: PlanNode, robot: str, result: Result) -> None:
     """Take the end of a goal into W."""
     if result.status == "done" or result.code == "already":
-        _succeeded(world, command, result)
+        _succeeded(world, node, robot, result)
     elif result.status == "failed":
-        _failed(world, command, result)
+        _failed(world, node, robot, result)
 
 
-def _succeeded(world: World, command: Command, result: Result) -> None:
-    thing = world.things.get(command.target.id) if command.target is not None else None
-    if command.action == "explore" and command.room is not None:
-        world.areas.search_done(command.room, command.robot, result.stamp_s)
+def _succeeded(world: World, node: PlanNode, robot: str, result: Result) -> None:
+    thing = world.things.get(node.object)
+    if node.action == "explore" and node.room is not None:
+        world.areas.search_done(node.room, robot, result.stamp_s)
     elif thing is None:
         return
-    elif command.action == "pickup":
-        take(world, thing, command.robot, result.stamp_s)
-    elif command.action == "put":
-        item = world.things.get(command.item.id) if command.item is not None else None
+    elif node.action == "pickup":
+        take(world, thing, robot, result.stamp_s)
+    elif node.action == "put":
+        item = world.things.get(node.item)
         if item is not None:
-            put(world, item, thing, command.robot, result)
-    elif command.action in CHANGES:
-        name, value = CHANGES[command.action]
-        handle(world.property_of(thing, name), command.robot, value, result.stamp_s)
-    if thing is not None and command.action not in ("goto", "explore"):
-        _touched(thing, command.robot, result.stamp_s)
+            put(world, item, thing, robot, result)
+    elif node.action in CHANGES:
+        name, value = CHANGES[node.action]
+        handle(world.property_of(thing, name), robot, value, result.stamp_s)
+    if thing is not None and node.action not in ("goto", "explore"):
+        _touched(thing, robot, result.stamp_s)
 
 
 def take(world: World, thing: Thing, robot: str, stamp_s: float) -> None:
@@ -75,9 +75,9 @@ def _touched(thing: Thing, robot: str, stamp_s: float) -> None:
     thing.version += 1
 
 
-def _failed(world: World, command: Command, result: Result) -> None:
+def _failed(world: World, node: PlanNode, robot: str, result: Result) -> None:
     """What a failure teaches: the thing is not there, or the door is shut."""
-    thing = world.things.get(command.target.id) if command.target is not None else None
+    thing = world.things.get(node.object)
     if thing is None:
         return
     if result.code == "not_there":
@@ -92,7 +92,7 @@ def _failed(world: World, command: Command, result: Result) -> None:
     elif result.code == "closed":
         shut = _around(world, thing)
         if shut is not None:
-            handle(world.property_of(shut, "isOpen"), command.robot, False, result.stamp_s)
+            handle(world.property_of(shut, "isOpen"), robot, False, result.stamp_s)
 
 
 def _around(world: World, thing: Thing) -> Thing | None:

@@ -121,7 +121,7 @@ class World:
             if thing.id in self.things.by_id:
                 self._review(thing, now_s)
         if self._locks_due:
-            self._relock()
+            self.lock()
         changed = [t for t in (*touched, *later) if t.id in self.things.by_id and due(t, now_s)]
         return list({t.id: t for t in changed}.values())
 
@@ -169,7 +169,8 @@ class World:
                     other.placed_x = 1e9 if other.type != thing.type else other.placed_x
                     self.things.touch(other)
 
-    def _relock(self) -> None:
+    def lock(self) -> None:
+        """Mark what is in hands or behind doors."""
         self._locks_due = False
         for thing in self.things:
             locked = thing.receptacle in self.fleet.robots or hidden(thing, self.things)

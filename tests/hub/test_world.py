@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from hub import effects
 from hub.world import World
 from tests.hub.scenes import batch, card, flat, report, seen, view
-from wire.messages.command import Command, Result, Target
+from wire.messages.command import Result
+from wire.messages.plan import PlanNode
 from wire.messages.world import ObjectState
 
 
@@ -35,23 +36,10 @@ def _one(world: World, type: str, now_s: float = 3.0) -> ObjectState:
     return found
 
 
-def _target(state: ObjectState) -> Target:
-    return Target(id=state.id, type=state.type, position_enu_m=state.position_enu_m, spread_m=0.1)
-
-
 def _act(world: World, action: str, target: str, item: str | None = None, now_s: float = 4.0, **result: object) -> None:
-    command = Command(
-        goal_id="g-1",
-        epoch=0,
-        robot="dog-1",
-        action=action,
-        target=_target(_one(world, target)),
-        item=_target(_one(world, item)) if item else None,
-        valid_until_s=100.0,
-        timeout_s=60.0,
-    )
+    node = PlanNode(id="n-1", action=action, object=_one(world, target).id, item=_one(world, item).id if item else None)
     outcome = {"goal_id": "g-1", "robot": "dog-1", "stamp_s": now_s, "status": "done", "code": "ok", **result}
-    effects.apply(world, command, Result.model_validate(outcome))
+    effects.apply(world, node, "dog-1", Result.model_validate(outcome))
     world.delta(now_s)
 
 

@@ -1,0 +1,112 @@
+"""Can this plan be carried out in this world? Every fault is a sentence that a planner (or its model) can act on."""
+
+from collections.abc import Mapping
+from graphlib import CycleError, TopologicalSorter
+
+from hub.floor import FloorPlan
+from hub.replay import replay
+from wire.catalogue import PROP_FLAG, catalogue
+from wire.messages.plan import Action, Plan, PlanNode
+from wire.messages.world import ObjectState, WorldState
+
+NEEDS_OBJECT: frozenset[Action] = frozenset(
+    {"inspect", "pickup", "put", "open", "close", "toggle_on", "toggle_off", "slice", "clean"}
+)
+_FLAG: dict[Action, str] = {
+    "pickup": "pickupable",
+    "open": PROP_FLAG["isOpen"],
+    "close": PROP_FLAG["isOpen"],
+    "toggle_on": PROP_FLAG["isToggled"],
+    "toggle_off": PROP_FLAG["isToggled"],
+    "slice": PROP_FLAG["isSliced"],
+    "clean": PROP_FLAG["isDirty"],
+    "put": "receptacle",
+}
+
+
+def faults(plan: Plan, world: WorldState, skills: Mapping[str, tuple[str, ...]], floor: FloorPlan) -> list[str]:
+    """Why the plan cannot be carried out; empty when it can. `skills`: of every robot that is there."""
+    found = _graph(plan)
+    if found:
+        return found
+    objects = {o.id: o for o in world.objects}
+    for node in plan.nodes:
+        found += _fields(node, objects, floor) + _hands(node, skills)
+    if found:
+        return found
+    order = list(TopologicalSorter({n.id: n.after for n in plan.nodes}).static_order())
+    return _reach(plan, world, objects, floor) + replay(plan, order, world)
+
+
+def _graph(plan: Plan) -> list[str]:
+    ids = [node.id for node in plan.nodes]
+    found = [
+        f"node {id} appears {ids.count(id)} times: give every node its own id"
+        for id in sorted(set(ids))
+        if ids.count(id) > 1
+    ]
+    known = set(ids)
+    for node in plan.nodes:
+        found += [f"node {node.id} waits for {id}, which is not in the plan" for id in node.after if id not in known]
+        if node.same_robot_as is not None and node.same_robot_as not in known:
+            found.append(f"node {node.id} wants the robot of {node.same_robot_as}, which is not in the plan")
+        if node.goal is not None and not 0 <= node.goal < len(plan.goals):
+            found.append(f"node {node.id} serves goal {node.goal}, but there are {len(plan.goals)} goals")
+    if found:
+        return found
+    try:
+        TopologicalSorter({n.id: n.after for n in plan.nodes}).prepare()
+    except CycleError as error:
+        return [f"the nodes wait for each other in a circle: {' -> '.join(error.args[1])}"]
+    return []
+
+
+def _fields(node: PlanNode, objects: dict[str, ObjectState], floor: FloorPlan) -> list[str]:
+    where = f"node {node.id} ({node.action})"
+    if node.action in NEEDS_OBJECT and node.object is None:
+        return [f"{where} names no object"]
+    if node.action == "put" and node.item is None:
+        return [f"{where} does not say which item is put down"]
+    if node.action == "explore" and node.room is None:
+        return [f"{where} names no room"]
+    if node.action == "goto" and node.object is None and node.room is None and node.point_m is None:
+        return [f"{where} names no place"]
+    found = [f"{where}: there is no object {id}" for id in (node.object, node.item) if id and id not in objects]
+    if node.room is not None and node.room not in floor.polygons:
+        found.append(f"{where}: there is no room {node.room}; rooms are {', '.join(floor.polygons)}")
+    flag = _FLAG.get(node.action)
+    if not found and flag is not None and node.object is not None:
+        type = objects[node.object].type
+        row = catalogue().get(type)
+        if row is not None and not row.can(flag):
+            found.append(f"{where}: {node.object} is a {type}, which is not {flag}")
+    return found
+
+
+def _hands(node: PlanNode, skills: Mapping[str, tuple[str, ...]]) -> list[str]:
+    if not skills:
+        return ["no robot is there"]
+    needed = {node.action, *node.req_skills}
+    able = [robot for robot, has in skills.items() if needed <= set(has)]
+    if not able:
+        missing = sorted(needed - {skill for has in skills.values() for skill in has}) or sorted(needed)
+        return [f"node {node.id} ({node.action}): no robot can {', '.join(missing)}"]
+    preferred = node.preferred_robot
+    if preferred is not None and preferred in skills and preferred not in able:
+        return [f"node {node.id} prefers {preferred}, which cannot {node.action}; {', '.join(sorted(able))} can"]
+    return []
+
+
+def _reach(plan: Plan, world: WorldState, objects: dict[str, ObjectState], floor: FloorPlan) -> list[str]:
+    rooms: set[str] = set()
+    for robot in world.robots:
+        if robot.room is not None and robot.status != "lost":
+            rooms |= floor.connected(robot.room)
+    if not rooms:
+        return []
+    found = []
+    for node in plan.nodes:
+        room = node.room or (objects[node.object].room if node.object is not None else None)
+        if room is not None and room not in rooms:
+            found.append(f"node {node.id} ({node.action}): no door leads from any robot to {room}")
+    return found

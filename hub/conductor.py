@@ -1,0 +1,301 @@
+"""Algorithm 1 for the active task: plan, check, dispatch, watch, halt, plan again, until the goals hold."""
+
+from collections.abc import Sequence
+from typing import Literal, Protocol
+
+from hub import effects
+from hub.checks import faults
+from hub.dispatch import Dispatch
+from hub.journal import Journal
+from hub.memory import write_world
+from hub.monitor import Watch
+from hub.orders import order
+from hub.plan import PlanRun, Step
+from hub.task import Task
+from hub.world import World
+from wire.messages.command import Command, Result
+from wire.messages.operator import TaskStatus
+from wire.messages.plan import Plan, PlanReply, PlanRequest
+
+_HALT_S = 8.0
+_STUCK_S = 45.0
+_RETRY_S = 1.0
+_MEET_S = 4.0
+_REPLANS_PER_FAIL = 8
+_FREE_CODES = frozenset({"not_there", "lost_hub", "interrupted", "cancelled", "closed"})
+"""Failures that taught something new about the world: planned around, not counted."""
+Then = Literal["replan", "pause", "cancel"]
+
+
+class Voice(Protocol):
+    """What the conductor says to others."""
+
+    def ask_plan(self, request: PlanRequest) -> None: ...
+
+    def command(self, command: Command) -> None: ...
+
+    def cancel(self, robot: str, goal_id: str) -> None: ...
+
+    def show(self, task: Task) -> None:
+        """The task or its plan changed."""
+
+
+class Conductor:
+    """Carries out one task at a time."""
+
+    def __init__(
+        self, world: World, dispatch: Dispatch, journal: Journal, voice: Voice, epoch: int, max_fails: int
+    ) -> None:
+        self._world, self._dispatch, self._journal, self._voice = world, dispatch, journal, voice
+        self._epoch, self._max_fails = epoch, max_fails
+        self.task: Task | None = None
+        self._asked = False
+        self._ask_at_s = 0.0
+        self._halting: Then | None = None
+        self._halted_s = self._moved_s = 0.0
+        self._needless: set[str] = set()
+        """Goal ids cancelled because their effect came about by itself."""
+
+    def begin(self, task: Task, now_s: float) -> None:
+        """Take on a task, new or from the journal."""
+        self.task = task
+        self._asked, self._halting = False, None
+        self._ask_at_s = now_s
+        self._moved_s = now_s
+        if task.run is not None and task.status == "running":
+            task.watch = Watch(task.run, self._world)
+        elif task.status == "planning":
+            self._world.begin_task()
+        task.measure(self._world)
+
+    def advance(self, now_s: float) -> None:
+        """Do what is due."""
+        task = self.task
+        if task is None or task.ended:
+            return
+        if self._halting is not None:
+            self._wait_for_halt(task, now_s)
+        elif task.status == "planning":
+            if not self._asked and now_s >= self._ask_at_s and self._met(now_s, task):
+                self._ask(task, now_s)
+        elif task.status == "running" and task.run is not None:
+            self._drive(task, task.run, now_s)
+
+    def _met(self, now_s: float, task: Task) -> bool:
+        """Whether the robots have announced themselves; a team that never does is not waited for."""
+        robots = [r for r in self._world.fleet.robots.values() if r.present]
+        return (bool(robots) and all(r.card is not None for r in robots)) or now_s - task.started_s > _MEET_S
+
+    def _ask(self, task: Task, now_s: float) -> None:
+        self._asked = True
+        request = PlanRequest(
+            task=task.id,
+            epoch=self._epoch,
+            instruction=task.instruction,
+            goals=task.goals or None,
+            world=self._world.snapshot(now_s),
+            failures=tuple(text[:2000] for text in task.failures[-8:]),
+            now_s=now_s,
+        )
+        self._voice.ask_plan(request)
+
+    def planned(self, reply: PlanReply | None, now_s: float, error: str = "") -> None:
+        """The planner's answer, or None when there was none in time."""
+        task = self.task
+        if task is None or task.status != "planning" or self._halting is not None or not self._asked:
+            return
+        if reply is not None and (reply.task != task.id or reply.epoch != self._epoch):
+            return
+        self._asked = False
+        if reply is None:
+            self._failed(task, f"the planner gave no answer{': ' + error if error else ''}", now_s)
+        elif reply.refusal is not None:
+            task.refusal = reply.refusal
+            self._end(task, "refused" if task.run is None else "failed", reply.refusal.reason, now_s)
+        elif reply.plan is not None:
+            self._adopt(task, reply.plan, now_s)
+        else:
+            self._failed(task, "the planner sent neither a plan nor a refusal", now_s)
+
+    def _adopt(self, task: Task, plan: Plan, now_s: float) -> None:
+        task.planner = plan.planner
+        task.tokens = (task.tokens[0] + plan.prompt_tokens, task.tokens[1] + plan.completion_tokens)
+        skills = {r.id: r.skills for r in self._world.fleet.robots.values() if r.present}
+        found = faults(plan, self._world.snapshot(now_s), skills, self._world.floor)
+        if found:
+            task.failures += found
+            self._failed(task, f"the plan cannot be carried out: {found[0]}", now_s)
+            return
+        if task.run is not None:
+            task.done_before += task.run.done_count()
+        task.goals, task.run = plan.goals, PlanRun(plan)
+        task.watch = Watch(task.run, self._world)
+        task.status, self._moved_s = "running", now_s
+        task.say(now_s, f"plan {plan.id}: {len(plan.nodes)} nodes{'' if plan.complete else ', a search first'}")
+        self._keep(task, now_s, "plan", plan.model_dump_json())
+
+    def _drive(self, task: Task, run: PlanRun, now_s: float) -> None:
+        """Dispatch what is ready; see whether the plan has come to its end."""
+        running = run.running()
+        if run.finished():
+            self._finish(task, run, now_s)
+            return
+        busy = frozenset(s.robot for s in running if s.robot is not None)
+        robots = [r for r in self._world.fleet.robots.values() if r.present]
+        for step, robot in self._dispatch.match(run, run.ready(now_s), robots, busy, now_s):
+            task.counter += 1
+            goal_id = f"{task.id}-e{self._epoch}-{task.counter}"
+            run.start(step, robot.id, goal_id, now_s)
+            command = order(step, robot, goal_id, self._epoch, self._world.things, self._dispatch, now_s)
+            self._keep(task, now_s, "command", f"{goal_id} {robot.id} {step.node.id} {step.node.action}")
+            self._voice.command(command)
+            self._moved_s = now_s
+        if not running and now_s - self._moved_s > _STUCK_S:
+            self._moved_s = now_s
+            self.fail(f"no robot could start any of {', '.join(s.node.id for s in run.ready(now_s))}", now_s)
+
+    def _finish(self, task: Task, run: PlanRun, now_s: float) -> None:
+        good = task.judge(self._world.snapshot(now_s))
+        if not run.plan.complete:
+            self._replan(task, "the search is over", now_s)
+        elif good:
+            self._end(task, "done", "all goals hold", now_s)
+        else:
+            missing = [g.text or g.predicate for g, h in zip(task.goals, task.holding, strict=True) if not h]
+            self._failed(task, f"the plan is done, but not reached: {'; '.join(missing)}", now_s)
+
+    def result(self, result: Result, now_s: float) -> None:
+        """A goal of a robot has ended."""
+        task = self.task
+        step = task.run.of_goal(result.goal_id) if task is not None and task.run is not None else None
+        if task is None or step is None or step.status != "running" or step.robot is None:
+            return
+        effects.apply(self._world, step.node, step.robot, result)
+        self._moved_s = now_s
+        if result.status == "done" or result.code == "already":
+            self._done(task, step, result.reason, now_s)
+        elif result.goal_id in self._needless:
+            self._done(task, step, "so already", now_s)
+        elif result.status in ("cancelled", "expired") and task.run is not None:
+            task.run.put_back(step, result.reason)
+            self._keep(task, now_s, "node", f"{step.node.id} {result.status}")
+        elif task.run is not None:
+            task.run.end(step, "failed", now_s, result.reason)
+            text = f"{step.robot} could not {step.node.action} {step.node.object or step.node.room or ''}"
+            counted = result.code not in _FREE_CODES
+            self.fail(f"{text}: {result.reason or result.code}", now_s, counted=counted)
+
+    def _done(self, task: Task, step: Step, reason: str, now_s: float) -> None:
+        if task.run is None:
+            return
+        task.run.end(step, "done", now_s, reason)
+        named = {step.node.object, step.node.item} - {None}
+        for other in task.run.steps.values():
+            if task.watch is not None and named & {other.node.object, other.node.item}:
+                task.watch.refresh(other)
+        task.say(now_s, f"{step.robot or 'nobody'}: {step.node.action} {step.node.object or step.node.room or ''} done")
+        self._keep(task, now_s, "node", f"{step.node.id} done", remember=True)
+
+    def changed(self, ids: Sequence[str], now_s: float) -> None:
+        """IoTUpdate: things changed in W. Halt when that touches the plan."""
+        task = self.task
+        if task is None or task.run is None or task.watch is None or task.status != "running" or self._halting:
+            return
+        for step, reason in task.watch.senseless():
+            if step.status == "pending":
+                self._done(task, step, reason, now_s)
+            elif step.goal_id is not None and step.goal_id not in self._needless and step.robot is not None:
+                self._needless.add(step.goal_id)
+                self._voice.cancel(step.robot, step.goal_id)
+        reason_to_replan = task.watch.relevant(list(ids))
+        if reason_to_replan is not None:
+            self.halt("replan", reason_to_replan, now_s)
+
+    def lost(self, robot: str, now_s: float) -> None:
+        """A robot went away: what it did is planned anew."""
+        task = self.task
+        if task is None or task.run is None or task.ended:
+            return
+        mine = [s for s in task.run.running() if s.robot == robot]
+        for step in mine:
+            task.run.end(step, "failed", now_s, "its robot was lost")
+        if mine:
+            self.fail(f"{robot} was lost", now_s, counted=False)
+
+    def fail(self, reason: str, now_s: float, counted: bool = True) -> None:
+        """Something went wrong while robots act: stop them, then plan again."""
+        task = self.task
+        if task is None:
+            return
+        task.failures.append(reason)
+        task.fails += counted
+        self.halt("replan", reason, now_s)
+
+    def _failed(self, task: Task, reason: str, now_s: float) -> None:
+        """A failure while nothing runs."""
+        task.fails += 1
+        task.failures.append(reason)
+        self._replan(task, reason, now_s)
+
+    def halt(self, then: Then, reason: str, now_s: float) -> None:
+        """Stop every robot of this task; `then` comes when all stand still."""
+        task = self.task
+        if task is None or task.ended:
+            return
+        task.say(now_s, reason)
+        if self._halting is None or then != "replan":
+            self._halting, self._halted_s = then, now_s
+        self._asked = False
+        for step in task.run.running() if task.run is not None else ():
+            if step.robot is not None and step.goal_id is not None:
+                self._voice.cancel(step.robot, step.goal_id)
+        self._keep(task, now_s, "halt", f"{then}: {reason}")
+
+    def _wait_for_halt(self, task: Task, now_s: float) -> None:
+        running = task.run.running() if task.run is not None else []
+        if running and now_s - self._halted_s < _HALT_S:
+            return
+        for step in running:
+            if task.run is not None:
+                task.run.put_back(step, "did not stop in time")
+        then, self._halting = self._halting, None
+        if then == "cancel":
+            self._end(task, "cancelled", "cancelled by the operator", now_s)
+        elif then == "pause":
+            task.status = "paused"
+            self._keep(task, now_s, "pause", task.id)
+        else:
+            self._replan(task, task.failures[-1] if task.failures else "", now_s)
+
+    def resume(self, now_s: float) -> None:
+        """Go on after a pause, with a fresh plan for the world as it is now."""
+        if self.task is not None and self.task.status == "paused":
+            self._replan(self.task, "resumed", now_s)
+
+    def _replan(self, task: Task, reason: str, now_s: float) -> None:
+        if task.fails >= self._max_fails:
+            self._end(task, "failed", f"gave up after {task.fails} failures, the last: {reason}", now_s)
+            return
+        task.replans += 1
+        if task.replans > _REPLANS_PER_FAIL * self._max_fails:
+            self._end(task, "failed", f"gave up after {task.replans} plans, the last reason: {reason}", now_s)
+            return
+        task.status, self._asked = "planning", False
+        self._ask_at_s = now_s + (_RETRY_S if task.fails else 0.1)
+        self._keep(task, now_s, "replan", reason)
+
+    def _end(self, task: Task, status: TaskStatus, reason: str, now_s: float) -> None:
+        task.status, task.reason = status, reason
+        task.say(now_s, f"{status}: {reason}")
+        task.judge(self._world.snapshot(now_s))
+        self._keep(task, now_s, "end", f"{status}: {reason}", remember=True)
+
+    def _keep(self, task: Task, now_s: float, kind: str, body: str, remember: bool = False) -> None:
+        """Journal a decision with the state after it, then show it."""
+        task.changed_s = now_s
+        task.measure(self._world)
+        state = {f"task/{task.id}": task.write()}
+        if remember:
+            state["world"] = write_world(self._world)
+        self._journal.decide(now_s, kind, body, state)
+        self._voice.show(task)

@@ -1,0 +1,99 @@
+"""Ready nodes to idle robots, all at once: skill, walking distance, what is in the hand, wishes, camera horizon."""
+
+from collections.abc import Sequence
+from math import atan2, inf, pi
+
+from hub.assignment import FORBIDDEN, assign
+from hub.distance import Distances
+from hub.fleet import Robot
+from hub.floor import FloorPlan, centre
+from hub.plan import PlanRun, Step
+from hub.things import Things
+from wire.frames import wrap_rad
+from wire.model import Vec2, Vec3
+
+_STOLEN_M = 6.0
+"""A node that the planner gave to another robot costs this much more walking."""
+_PATIENCE_S = 15.0
+"""So long a node waits for its own robot to come free before anybody may take it."""
+_OTHER_ERRAND_M = 5.0
+"""A robot with something in its hand should bring that home first."""
+_TURN_M_PER_RAD = 0.25
+_TILT_M_PER_RAD = 0.1
+_MAST_M = 1.3
+_HORIZON_RAD = 0.3
+_MOST_READY = 64
+
+
+class Dispatch:
+    """Matches by the least total cost; the same inputs always give the same matching."""
+
+    def __init__(self, floor: FloorPlan, things: Things) -> None:
+        self._floor, self._things = floor, things
+        self.distances = Distances(floor)
+
+    def match(
+        self, run: PlanRun, ready: Sequence[Step], robots: Sequence[Robot], busy: frozenset[str], now_s: float
+    ) -> list[tuple[Step, Robot]]:
+        """Who starts what now. `robots`: everybody present; `busy`: those who have a goal."""
+        idle = sorted((r for r in robots if r.id not in busy and r.status == "idle"), key=lambda r: r.id)
+        steps = list(ready)[:_MOST_READY]
+        if not idle or not steps:
+            return []
+        present = frozenset(r.id for r in robots)
+        table = [[self._cost(run, step, robot, present, busy, now_s) for step in steps] for robot in idle]
+        return [(steps[column], robot) for robot, column in zip(idle, assign(table), strict=True) if column is not None]
+
+    def _cost(
+        self, run: PlanRun, step: Step, robot: Robot, present: frozenset[str], busy: frozenset[str], now_s: float
+    ) -> float:
+        node = step.node
+        if not {node.action, *node.req_skills} <= set(robot.skills):
+            return FORBIDDEN
+        if not self._hands_suit(run, step, robot):
+            return FORBIDDEN
+        cost = self._way(step, robot)
+        preferred = node.preferred_robot
+        if preferred is not None and preferred != robot.id and preferred in present and node.action != "put":
+            waited_s = now_s - (step.ready_s if step.ready_s is not None else now_s)
+            if preferred in busy and waited_s < _PATIENCE_S:
+                return FORBIDDEN
+            cost += _STOLEN_M
+        if robot.inventory is not None and node.item != robot.inventory:
+            cost += _OTHER_ERRAND_M
+        return min(cost, FORBIDDEN)
+
+    def _hands_suit(self, run: PlanRun, step: Step, robot: Robot) -> bool:
+        node = step.node
+        if node.same_robot_as is not None:
+            pair = run.steps[node.same_robot_as]
+            if pair.robot is not None and pair.robot != robot.id and node.action != "put":
+                return False
+        if node.action == "put":
+            return robot.inventory == node.item
+        if node.action in ("pickup", "slice", "clean"):
+            return robot.inventory is None
+        return True
+
+    def _way(self, step: Step, robot: Robot) -> float:
+        """Metres to walk, with the turn of the body and the tilt of the camera counted in."""
+        place = self.place(step)
+        if place is None:
+            return 0.0
+        walk_m = self.distances.walk_m(robot.xy, (place[0], place[1]))
+        if walk_m == inf:
+            return FORBIDDEN
+        turn = abs(wrap_rad(atan2(place[1] - robot.xy[1], place[0] - robot.xy[0]) - robot.yaw_rad)) / pi
+        tilt = abs(atan2(_MAST_M - place[2], 1.0) - _HORIZON_RAD)
+        return walk_m + _TURN_M_PER_RAD * turn * pi + _TILT_M_PER_RAD * tilt
+
+    def place(self, step: Step) -> Vec3 | None:
+        """Where a node takes place."""
+        node = step.node
+        thing = self._things.get(node.object)
+        if thing is not None:
+            return (thing.x, thing.y, thing.z)
+        point: Vec2 | None = node.point_m
+        if point is None and node.room is not None:
+            point = centre(self._floor.polygons[node.room])
+        return (point[0], point[1], 0.0) if point is not None else None

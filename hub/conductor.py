@@ -20,7 +20,6 @@ from wire.messages.plan import Plan, PlanReply, PlanRequest
 _HALT_S = 8.0
 _STUCK_S = 45.0
 _RETRY_S = 1.0
-_MEET_S = 4.0
 _REPLANS_PER_FAIL = 8
 _FREE_CODES = frozenset({"not_there", "lost_hub", "interrupted", "cancelled", "closed"})
 """Failures that taught something new about the world: planned around, not counted."""
@@ -62,10 +61,12 @@ class Conductor:
         self._asked, self._halting = False, None
         self._ask_at_s = now_s
         self._moved_s = now_s
-        if task.run is not None and task.status == "running":
-            task.watch = Watch(task.run, self._world)
-        elif task.status == "planning":
+        if task.run is None:
             self._world.begin_task()
+        else:
+            task.watch = Watch(task.run, self._world)
+            if task.status != "running" and task.run.running():
+                self.halt("pause" if task.status == "paused" else "replan", "the hub was restarted", now_s)
         task.measure(self._world)
 
     def advance(self, now_s: float) -> None:
@@ -76,15 +77,10 @@ class Conductor:
         if self._halting is not None:
             self._wait_for_halt(task, now_s)
         elif task.status == "planning":
-            if not self._asked and now_s >= self._ask_at_s and self._met(now_s, task):
+            if not self._asked and now_s >= self._ask_at_s and self._world.fleet.met(now_s - task.started_s):
                 self._ask(task, now_s)
         elif task.status == "running" and task.run is not None:
             self._drive(task, task.run, now_s)
-
-    def _met(self, now_s: float, task: Task) -> bool:
-        """Whether the robots have announced themselves; a team that never does is not waited for."""
-        robots = [r for r in self._world.fleet.robots.values() if r.present]
-        return (bool(robots) and all(r.card is not None for r in robots)) or now_s - task.started_s > _MEET_S
 
     def _ask(self, task: Task, now_s: float) -> None:
         self._asked = True
@@ -170,6 +166,7 @@ class Conductor:
         step = task.run.of_goal(result.goal_id) if task is not None and task.run is not None else None
         if task is None or step is None or step.status != "running" or step.robot is None:
             return
+        result = effects.finished_anyway(step.node, result)
         effects.apply(self._world, step.node, step.robot, result)
         self._moved_s = now_s
         if result.status == "done" or result.code == "already":

@@ -100,3 +100,12 @@ def _around(world: World, thing: Thing) -> Thing | None:
     if "isOpen" in thing.facts:
         return thing
     return world.things.get(thing.receptacle)
+
+
+def finished_anyway(node: PlanNode, result: Result) -> Result:
+    """A hand that had closed or opened before a cancellation came: the thing is done."""
+    if result.status != "cancelled" or result.point_enu_m is None:
+        return result
+    if (node.action == "pickup" and result.holding) or (node.action == "put" and not result.holding):
+        return result.model_copy(update={"status": "done", "code": "ok"})
+    return result

@@ -10,6 +10,7 @@ from wire.model import Vec2, Vec3
 
 _LOST_S = 3.0
 _BODY_M = 0.45
+_MEET_S = 4.0
 
 
 class Robot:
@@ -98,6 +99,11 @@ class Fleet:
         for id in silent:
             self.gone(id)
         return silent
+
+    def met(self, waited_s: float) -> bool:
+        """Whether every robot has announced itself; one that never does is not waited for."""
+        there = [r for r in self.robots.values() if r.present]
+        return waited_s > _MEET_S or (bool(there) and all(r.card is not None for r in there))
 
     def near(self, x: float, y: float) -> bool:
         """Whether a robot's body is at this place."""

@@ -42,6 +42,8 @@ class Task:
         """Odometer and step count of every robot when the task began."""
         self.spent = (0.0, 0)
         self.log: deque[str] = deque(maxlen=_LINES)
+        self.unsaid: list[str] = []
+        """Lines not yet published in the event log."""
 
     @property
     def ended(self) -> bool:
@@ -50,6 +52,7 @@ class Task:
     def say(self, now_s: float, text: str) -> None:
         """A line for people."""
         self.log.append(f"{now_s:.1f} s: {text}"[:300])
+        self.unsaid.append(text)
         self.changed_s = now_s
 
     def measure(self, world: World) -> None:

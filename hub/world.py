@@ -5,7 +5,7 @@ from hub.areas import Areas
 from hub.association import duplicates
 from hub.containment import hidden, parent_of
 from hub.facts import claim, settle
-from hub.fleet import Fleet
+from hub.fleet import Fleet, Robot
 from hub.floor import FloorPlan
 from hub.fusion import Fusion
 from hub.kinds import shape
@@ -50,19 +50,20 @@ class World:
         if batch.kind == "robot" and batch.source not in self._robots:
             self._robots = self._robots | {batch.source}
 
-    def report_robot(self, report: RobotReport) -> None:
+    def report_robot(self, report: RobotReport) -> Robot:
         """F(W, u) for a robot's own state; what it carries goes with it."""
         robot = self.fleet.take(report)
         self._robots = self._robots | {robot.id} if robot.id not in self._robots else self._robots
         carried = self.things.get(robot.inventory)
         if carried is None:
-            return
+            return robot
         if not report.holding and report.status == "idle":
             self._dropped(carried, robot.id)
         else:
             self.things.move(carried, (robot.position_m[0], robot.position_m[1], 0.6))
             carried.stamp_s, carried.last_source = max(carried.stamp_s, report.stamp_s), robot.id
             self.things.touch(carried)
+        return robot
 
     def _dropped(self, thing: Thing, robot: str) -> None:
         self.fleet.robot(robot).inventory = None

@@ -1,0 +1,204 @@
+"""The hub's process without its shell: events to the parts, deltas, orders and states out, services answered."""
+
+from collections.abc import Sequence
+from math import hypot
+from pathlib import Path
+
+from hub.conductor import Conductor
+from hub.desk import Desk
+from hub.dispatch import Dispatch
+from hub.journal import Journal
+from hub.kinds import shape
+from hub.memory import read_world, write_world
+from hub.recovery import Recovery
+from hub.traffic import Mover, Traffic
+from hub.voice import Voice
+from hub.world import World
+from wire.bus import Event, Node, Presence, Received, Reply, Request
+from wire.messages.command import Command, DeviceCard, GoalsReply, Result, RobotReport, TrafficOrder
+from wire.messages.driver import DeviceReport
+from wire.messages.observation import ObservationBatch
+from wire.messages.plan import PlanReply
+from wire.model import Vec2
+from wire.site import Site
+
+_DELTA_S = 0.1
+_TRAFFIC_S = 0.2
+_SNAPSHOT_S = 5.0
+_STATE_S = 1.0
+_CARD_S = 3.0
+_EARLY_S = 1e-6
+_OTHERS_M = 4.0
+
+
+class Coordinator:
+    """See wire.bus.Core. Algorithm 1 of the first paper lives in `hub.conductor`."""
+
+    def __init__(self, site: Site, process_id: str, journal: Journal) -> None:
+        self._site, self._id, self._journal = site, process_id, journal
+        self.world = World(site, seed=0)
+        self._dispatch = Dispatch(self.world.floor, self.world.things)
+        self._traffic = Traffic(self.world.floor, self._blocked)
+        self._asked_card_s: dict[str, float] = {}
+        self._devices = {p.id for p in site.process if p.role in ("robot", "cctv")}
+        self._others = {p.id for p in site.process} - self._devices
+        self._due = {"delta": 0.0, "traffic": 0.0, "snapshot": 0.0, "state": 0.0}
+        self._now_s = 0.0
+        self._orders = 0
+
+    def start(self, node: Node) -> None:
+        self._node = node
+        epoch = self._journal.next_epoch()
+        self._voice = voice = Voice(node, epoch)
+        self._conductor = conductor = Conductor(
+            self.world, self._dispatch, self._journal, voice, epoch, self._site.hub.max_fails
+        )
+        self._recovery = Recovery(self.world, conductor)
+        self._desk = Desk(self.world, conductor, self._journal, voice)
+        voice.on_plan = self._planned
+        voice.on_refused = self._refused
+        voice.on_goals = self._goals
+        voice.on_card = self._card
+        remembered = self._journal.read("world")
+        if remembered is not None:
+            read_world(self.world, remembered)
+        self._desk.restore()
+        for topic in ("observation", "device_report", "robot_report", "result"):
+            node.subscribe(topic)
+        for service in ("snapshot", "task", "task_query", "control", "why"):
+            node.serve(service)
+        node.watch_presence()
+
+    def step(self, now_s: float, events: Sequence[Event]) -> None:
+        self._now_s = now_s
+        for event in events:
+            self._hear(event, now_s)
+        for robot in self.world.fleet.check(now_s):
+            self._conductor.lost(robot, now_s)
+        for robot in self._recovery.due(now_s):
+            self._voice.ask_goals(robot)
+        if self._is_due("delta", _DELTA_S, now_s):
+            self._tell_changes(now_s)
+        self._desk.step(now_s)
+        self._conductor.advance(now_s)
+        if self._is_due("traffic", _TRAFFIC_S, now_s):
+            self._direct_traffic(now_s)
+        task = self._conductor.task
+        if task is not None and not task.ended:
+            if self._is_due("snapshot", _SNAPSHOT_S, now_s):
+                self._journal.keep({"world": write_world(self.world)})
+            if self._is_due("state", _STATE_S, now_s):
+                task.measure(self.world)
+                task.judge(self.world.snapshot(now_s))
+                self._voice.show(task)
+        self._voice.publish(now_s)
+
+    def stop(self) -> None:
+        self._journal.close()
+
+    def _is_due(self, what: str, period_s: float, now_s: float) -> bool:
+        if now_s < self._due[what] - _EARLY_S:
+            return False
+        self._due[what] = now_s + period_s
+        return True
+
+    def _hear(self, event: Event, now_s: float) -> None:
+        if isinstance(event, Received):
+            self._receive(event, now_s)
+        elif isinstance(event, Reply):
+            self._voice.answered(event, now_s)
+        elif isinstance(event, Request):
+            self._desk.answer(event, now_s)
+        elif isinstance(event, Presence):
+            self._meet(event, now_s)
+
+    def _receive(self, event: Received, now_s: float) -> None:
+        message = event.message
+        if isinstance(message, ObservationBatch):
+            self.world.observe(message)
+        elif isinstance(message, RobotReport):
+            robot = self.world.report_robot(message)
+            if robot.card is None and now_s - self._asked_card_s.get(robot.id, -1e9) > _CARD_S:
+                self._asked_card_s[robot.id] = now_s
+                self._voice.ask_card(robot.id)
+        elif isinstance(message, DeviceReport):
+            self.world.report_device(message)
+        elif isinstance(message, Result):
+            self._conductor.result(message, now_s)
+
+    def _meet(self, event: Presence, now_s: float) -> None:
+        if not event.alive:
+            self.world.fleet.gone(event.process)
+            self._conductor.lost(event.process, now_s)
+        elif event.process in self._devices or (event.process not in self._others and event.process != self._id):
+            self._asked_card_s[event.process] = now_s
+            self._voice.ask_card(event.process)
+
+    def _planned(self, reply: PlanReply | None, error: str) -> None:
+        self._conductor.planned(reply, self._now_s, error)
+
+    def _refused(self, command: Command, reason: str) -> None:
+        result = Result(
+            goal_id=command.goal_id,
+            robot=command.robot,
+            stamp_s=self._now_s,
+            status="failed",
+            code="refused",
+            reason=reason,
+        )
+        self._conductor.result(result, self._now_s)
+
+    def _goals(self, reply: GoalsReply) -> None:
+        self._recovery.take(reply, self._now_s)
+
+    def _card(self, card: DeviceCard) -> None:
+        if card.skills:
+            self.world.fleet.take_card(card)
+
+    def _tell_changes(self, now_s: float) -> None:
+        delta = self.world.delta(now_s)
+        if delta is None:
+            return
+        self._node.publish("world_delta", delta)
+        changed = [o.id for o in delta.objects] + list(delta.removed)
+        if changed:
+            self._conductor.changed(changed, now_s)
+
+    def _direct_traffic(self, now_s: float) -> None:
+        robots = sorted((r for r in self.world.fleet.robots.values() if r.present), key=lambda r: r.id)
+        movers = [Mover(r.id, r.xy, r.path_m, r.radius_m) for r in robots]
+        rulings = self._traffic.rule(movers, now_s)
+        self._orders += 1
+        for mover in movers:
+            ruling = rulings[mover.id]
+            near = tuple(
+                m.position_m
+                for m in movers
+                if m.id != mover.id
+                and hypot(m.position_m[0] - mover.position_m[0], m.position_m[1] - mover.position_m[1]) < _OTHERS_M
+            )
+            order = TrafficOrder(
+                robot=mover.id,
+                seq=self._orders,
+                stamp_s=now_s,
+                go=ruling.go,
+                step_aside_m=ruling.step_aside_m,
+                others_m=near,
+                because=ruling.because,
+            )
+            self._node.publish("traffic", order, mover.id)
+
+    def _blocked(self, point_m: Vec2, radius_m: float) -> bool:
+        """Whether known furniture stands there."""
+        for thing in self.world.things.near(point_m[0], point_m[1], 1.6):
+            known = shape(thing.type)
+            if known.kind == "pickup" or thing.z - known.height_m / 2.0 > 1.0:
+                continue
+            if hypot(thing.x - point_m[0], thing.y - point_m[1]) < 0.85 * known.half_diagonal_m + radius_m:
+                return True
+        return False
+
+
+def build(site: Site, process_id: str, journal: Path | None = None) -> Coordinator:
+    """The hub of a site; without a path its journal is kept in memory and dies with the process."""
+    return Coordinator(site, process_id, Journal(journal))

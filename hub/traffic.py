@@ -1,0 +1,224 @@
+"""Who may be where: robots neither collide nor block each other in doors.
+
+One order of precedence at a time: who is in or has claimed a door, then who set out first. The foremost always goes;
+everybody else stands before coming into its way, and steps aside when already in it. An order has no circles, and
+whoever arrives gives up its place, so nobody waits for ever.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from math import hypot
+
+from hub.floor import Doorway, FloorPlan
+from hub.parking import Parking
+from hub.ways import approaches, cut, path_to_path_m, point_to_path_m
+from wire.model import Vec2
+
+_MARGIN_M = 0.12
+_ZONE_M = 0.75
+"""Around the middle of a door: one robot at a time."""
+_CLAIM_M = 2.0
+_STOP_M = 0.7
+"""A robot stands when the next stretch of its path comes into somebody's way."""
+_AHEAD_M = 2.6
+"""This much of a path is kept clear for the one that goes first."""
+_HARD_AHEAD_M = 0.35
+_REST_S = 1.0
+_SWAP_S = 4.0
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """One robot as traffic sees it."""
+
+    id: str
+    position_m: Vec2
+    path_m: tuple[Vec2, ...]
+    """What is left of its way, nearest first; empty when it wants nothing."""
+    radius_m: float = 0.38
+
+    @property
+    def way(self) -> list[Vec2]:
+        return [self.position_m, *self.path_m]
+
+
+@dataclass(frozen=True, slots=True)
+class Ruling:
+    """What one robot is told."""
+
+    go: bool
+    step_aside_m: Vec2 | None = None
+    because: str = ""
+
+
+@dataclass
+class _Ticket:
+    number: int
+    until_s: float
+    promoted_s: float = -1e9
+
+
+@dataclass
+class Traffic:
+    """Keeps precedence, door claims and step-aside places from one look to the next."""
+
+    floor: FloorPlan
+    blocked: Callable[[Vec2, float], bool]
+    """Whether a body of some radius would touch known furniture at a place."""
+    _tickets: dict[str, _Ticket] = field(default_factory=dict)
+    _next: int = 0
+    _claims: dict[str, str] = field(default_factory=dict)
+    _aside: dict[str, Vec2] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._parking = Parking(self.floor, self.blocked)
+
+    def rule(self, movers: Sequence[Mover], now_s: float) -> dict[str, Ruling]:
+        """Orders for everybody."""
+        for mover in movers:
+            self._parking.tread(mover.position_m)
+            self._ticket(mover, now_s)
+        self._claim(movers)
+        order = sorted(movers, key=lambda m: self._rank(m))
+        rulings: dict[str, Ruling] = {}
+        for index, mover in enumerate(order):
+            rulings[mover.id] = self._rule_one(mover, order[:index], movers, now_s)
+        return rulings
+
+    def _ticket(self, mover: Mover, now_s: float) -> None:
+        """A number drawn on setting out, given up after a rest."""
+        ticket = self._tickets.get(mover.id)
+        if mover.path_m:
+            if ticket is None:
+                self._next += 1
+                ticket = self._tickets[mover.id] = _Ticket(self._next, now_s)
+            ticket.until_s = now_s + _REST_S
+        elif ticket is not None and now_s > ticket.until_s and mover.id not in self._aside:
+            del self._tickets[mover.id]
+
+    def _rank(self, mover: Mover) -> tuple[bool, bool, int, str]:
+        """Smaller goes first."""
+        ticket = self._tickets.get(mover.id)
+        in_door = mover.id in self._claims.values()
+        return (ticket is None, not in_door, ticket.number if ticket is not None else 0, mover.id)
+
+    def _claim(self, movers: Sequence[Mover]) -> None:
+        """Doors belong to who is in them, else to who comes first and asks."""
+        by_id = {m.id: m for m in movers}
+        for door in self.floor.doors:
+            holder = by_id.get(self._claims.get(door.id, ""))
+            if holder is not None and (_in_zone(holder, door) or _heads_for(holder, door)):
+                continue
+            self._claims.pop(door.id, None)
+            inside = sorted((m for m in movers if _in_zone(m, door)), key=lambda m: self._rank(m))
+            wanting = [m for m in movers if _heads_for(m, door)]
+            nearest = sorted(wanting, key=lambda m: (_away_m(m, door), self._rank(m)))
+            taker = next(iter([*inside, *nearest]), None)
+            if taker is not None:
+                self._claims[door.id] = taker.id
+
+    def _rule_one(self, mover: Mover, before: Sequence[Mover], movers: Sequence[Mover], now_s: float) -> Ruling:
+        for first in before:
+            if first.path_m and self._in_way(mover, first):
+                return self._make_way(mover, first, before, movers, now_s)
+        self._aside.pop(mover.id, None)
+        if not mover.path_m:
+            return Ruling(go=True)
+        near = cut(mover.way, _STOP_M)
+        for door in self.floor.doors:
+            owner = self._claims.get(door.id)
+            if owner not in (None, mover.id) and not _in_zone(mover, door) and _enters(near, door):
+                return Ruling(go=False, because=f"{owner} is in {door.id}")
+        for first in before:
+            if first.path_m and self._comes_into(near, mover, first):
+                return Ruling(go=False, because=f"{first.id} goes first")
+        bumped = self._bumps(mover, movers)
+        return Ruling(go=bumped is None, because=f"{bumped} is in front" if bumped is not None else "")
+
+    def _in_way(self, mover: Mover, first: Mover) -> bool:
+        """Whether a robot, where it is, keeps another from its path."""
+        clear = mover.radius_m + first.radius_m + _MARGIN_M
+        ahead = cut(first.way, _AHEAD_M)
+        if point_to_path_m(mover.position_m, ahead) >= clear:
+            return mover.id in self._aside and point_to_path_m(mover.position_m, cut(first.way, 2 * _AHEAD_M)) < clear
+        if hypot(mover.position_m[0] - first.position_m[0], mover.position_m[1] - first.position_m[1]) < clear:
+            step = cut(first.way, _HARD_AHEAD_M)[-1]
+            if not approaches(first.position_m, step, mover.position_m):
+                return False  # beside or behind it: the way leads away
+        return mover.id in self._aside or not _leads_away(mover, first, clear)
+
+    def _comes_into(self, near: list[Vec2], mover: Mover, first: Mover) -> bool:
+        clear = mover.radius_m + first.radius_m + _MARGIN_M
+        ahead = cut(first.way, _AHEAD_M)
+        return path_to_path_m(near[1:] or near, ahead) < clear and not _leads_away(mover, first, clear)
+
+    def _make_way(
+        self, mover: Mover, first: Mover, before: Sequence[Mover], movers: Sequence[Mover], now_s: float
+    ) -> Ruling:
+        others = [m for m in movers if m.id != mover.id]
+        kept = self._aside.get(mover.id)
+        ways = [(m, cut(m.way, 2 * _AHEAD_M)) for m in before if m.path_m]
+        spot = kept if kept is not None and self._parking.good(kept, mover, ways, others) else None
+        if spot is None:
+            spot = self._parking.find(mover, ways, others)
+        if spot is None:
+            self._swap(mover, first, now_s)
+            self._aside.pop(mover.id, None)
+            return Ruling(go=False, because=f"in the way of {first.id}, with nowhere to go")
+        self._aside[mover.id] = spot
+        return Ruling(go=True, step_aside_m=spot, because=f"in the way of {first.id}")
+
+    def _swap(self, mover: Mover, first: Mover, now_s: float) -> None:
+        """Nowhere to step aside: let the boxed-in one go first for a while."""
+        mine, other = self._tickets.get(mover.id), self._tickets.get(first.id)
+        if mine is None or other is None or now_s - max(mine.promoted_s, other.promoted_s) < _SWAP_S:
+            return
+        mine.number, other.number = min(mine.number, other.number), max(mine.number, other.number)
+        mine.promoted_s = other.promoted_s = now_s
+        for door, owner in list(self._claims.items()):
+            if owner == first.id:
+                self._claims[door] = mover.id
+
+    def _bumps(self, mover: Mover, movers: Sequence[Mover]) -> str | None:
+        """Who would be touched by the next short stretch."""
+        step = cut(mover.way, _HARD_AHEAD_M)
+        for other in movers:
+            if other.id == mover.id:
+                continue
+            close = mover.radius_m + other.radius_m + 0.03
+            if point_to_path_m(other.position_m, step) < close and approaches(
+                mover.position_m, step[-1], other.position_m
+            ):
+                return other.id
+        return None
+
+
+def _leads_away(mover: Mover, first: Mover, clear_m: float) -> bool:
+    """Whether a robot walks ahead of another, the same way, and will be gone before it comes."""
+    if not mover.path_m:
+        return False
+    mine = cut(mover.way, 1.0)
+    gap = hypot(mover.position_m[0] - first.position_m[0], mover.position_m[1] - first.position_m[1])
+    further = hypot(mine[-1][0] - first.position_m[0], mine[-1][1] - first.position_m[1])
+    return further > gap + 0.5 and gap > 0.6 * clear_m
+
+
+def _away_m(mover: Mover, door: Doorway) -> float:
+    return hypot(mover.position_m[0] - door.middle_m[0], mover.position_m[1] - door.middle_m[1])
+
+
+def _in_zone(mover: Mover, door: Doorway) -> bool:
+    return _away_m(mover, door) < _ZONE_M
+
+
+def _heads_for(mover: Mover, door: Doorway) -> bool:
+    return bool(mover.path_m) and _enters(cut(mover.way, _CLAIM_M), door)
+
+
+def _enters(path_m: Sequence[Vec2], door: Doorway) -> bool:
+    """Whether a path goes through a door, not merely past it."""
+    normal, middle = door.normal, door.middle_m
+    sides = [(p[0] - middle[0]) * normal[0] + (p[1] - middle[1]) * normal[1] for p in path_m]
+    if point_to_path_m(middle, path_m) > door.width_m / 2.0 + 0.2:
+        return False
+    return min(sides) < 0.25 and max(sides) > -0.25

@@ -1,0 +1,103 @@
+"""The hub's side of asking: commands, cancellations, plans, cards; every answer finds the one who waits for it."""
+
+from collections.abc import Callable
+
+from hub.task import Task
+from wire.bus import Node, Reply
+from wire.messages.command import CancelRequest, CardRequest, Command, CommandAck, DeviceCard, GoalsReply, GoalsRequest
+from wire.messages.observation import EventLog
+from wire.messages.plan import PlanReply, PlanRequest
+
+_TRIES = 3
+Answered = Callable[[Reply, float], None]
+
+
+class Voice:
+    """Implements what the conductor needs over a node."""
+
+    def __init__(self, node: Node, epoch: int) -> None:
+        self._node, self._epoch = node, epoch
+        self._waiting: dict[int, Answered] = {}
+        self._changed: dict[str, Task] = {}
+        self._events = 0
+        self.on_plan: Callable[[PlanReply | None, str], None] = lambda reply, error: None
+        self.on_refused: Callable[[Command, str], None] = lambda command, reason: None
+        self.on_goals: Callable[[GoalsReply], None] = lambda reply: None
+        self.on_card: Callable[[DeviceCard], None] = lambda card: None
+
+    def answered(self, reply: Reply, now_s: float) -> None:
+        """Hand a reply to whom it concerns."""
+        handler = self._waiting.pop(reply.ask, None)
+        if handler is not None:
+            handler(reply, now_s)
+
+    def ask_plan(self, request: PlanRequest) -> None:
+        number = self._node.ask("make_plan", request)
+
+        def heard(reply: Reply, now_s: float) -> None:
+            self.on_plan(reply.message if isinstance(reply.message, PlanReply) else None, reply.error)
+
+        self._waiting[number] = heard
+
+    def command(self, command: Command) -> None:
+        self._command(command, _TRIES)
+
+    def _command(self, command: Command, tries: int) -> None:
+        """Ask until it is acknowledged; a goal id makes the repeat harmless."""
+        number = self._node.ask("goal", command, command.robot)
+
+        def heard(reply: Reply, now_s: float) -> None:
+            if isinstance(reply.message, CommandAck):
+                if not reply.message.accepted:
+                    self.on_refused(command, reply.message.reason)
+            elif tries > 1 and now_s < command.valid_until_s:
+                self._command(command, tries - 1)
+
+        self._waiting[number] = heard
+
+    def cancel(self, robot: str, goal_id: str | None) -> None:
+        self._cancel(robot, goal_id, _TRIES)
+
+    def _cancel(self, robot: str, goal_id: str | None, tries: int) -> None:
+        number = self._node.ask("cancel", CancelRequest(robot=robot, goal_id=goal_id, epoch=self._epoch), robot)
+
+        def heard(reply: Reply, now_s: float) -> None:
+            if reply.message is None and tries > 1:
+                self._cancel(robot, goal_id, tries - 1)
+
+        self._waiting[number] = heard
+
+    def ask_goals(self, robot: str) -> None:
+        number = self._node.ask("goals", GoalsRequest(), robot)
+
+        def heard(reply: Reply, now_s: float) -> None:
+            if isinstance(reply.message, GoalsReply):
+                self.on_goals(reply.message)
+
+        self._waiting[number] = heard
+
+    def ask_card(self, device: str) -> None:
+        number = self._node.ask("card", CardRequest(), device)
+
+        def heard(reply: Reply, now_s: float) -> None:
+            if isinstance(reply.message, DeviceCard):
+                self.on_card(reply.message)
+
+        self._waiting[number] = heard
+
+    def show(self, task: Task) -> None:
+        self._changed[task.id] = task
+
+    def publish(self, now_s: float) -> None:
+        """What changed in this step: task and plan states, and the lines for people."""
+        for id in sorted(self._changed):
+            task = self._changed[id]
+            self._node.publish("task_state", task.state(now_s), id)
+            if task.run is not None:
+                self._node.publish("plan_state", task.run.state(now_s, task.replans))
+            for text in task.unsaid:
+                self._events += 1
+                line = EventLog(source=self._node.id, seq=self._events, stamp_s=now_s, text=f"{id}: {text}"[:2000])
+                self._node.publish("event", line, self._node.id)
+            task.unsaid.clear()
+        self._changed.clear()

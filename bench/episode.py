@@ -41,12 +41,14 @@ def make_mesh(site: Site, wire_hash: "hashlib._Hash | None" = None) -> LoopbackM
 
     mesh = LoopbackMesh(site.clock.step_s, note)
     for row in site.process:
-        if row.role in _CORE_ROLES:
+        if row.role != "router" and row.role in _CORE_ROLES:
             mesh.add(build_core(site, row), row.id, row.role, owner=row.role == "sim")
     return mesh
 
 
-def run_episode(site: Site, state: Path, instruction: str | None, limit_s: float, settle_s: float = 2.0) -> dict[str, Any]:
+def run_episode(
+    site: Site, state: Path, instruction: str | None, limit_s: float, settle_s: float = 2.0
+) -> dict[str, Any]:
     """Do one instruction (the scene's own by default) and judge it; `state` takes the journals."""
     os.environ[STATE_VARIABLE] = str(state)
     wire_hash = hashlib.sha256()

@@ -1,7 +1,7 @@
 """From a picture to detections: the interface of every detector, and the one whose weights are shipped."""
 
 from dataclasses import dataclass, field
-from importlib.resources import files
+from pathlib import Path
 from typing import Protocol
 
 import cv2
@@ -50,12 +50,13 @@ class Detector(Protocol):
 class EmbeddedDetector:
     """The shipped convolutional network: every size of picture, no accelerator, one thread."""
 
-    def __init__(self, weights: bytes | None = None, min_confidence: float = MIN_CONFIDENCE) -> None:
+    def __init__(self, weights: Path | None = None, min_confidence: float = MIN_CONFIDENCE) -> None:
         options = onnxruntime.SessionOptions()
+        options.enable_mem_pattern = False  # planning for one size of picture costs memory and saves no time
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         options.log_severity_level = 3
-        data = weights if weights is not None else files("devices.vision").joinpath("weights.onnx").read_bytes()
-        self._session = onnxruntime.InferenceSession(data, options, providers=["CPUExecutionProvider"])
+        path = weights or Path(__file__).with_name("weights.onnx")
+        self._session = onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
         self._min_confidence = min_confidence
 
     def look(self, rgb: Image, lens: Lens) -> list[Detection]:

@@ -25,12 +25,18 @@ class Picture:
 
 def decode_frame(frame: CameraFrame) -> Picture:
     """The frame's JPEG and depth as arrays. Raises PictureError when they do not fit the stated size."""
-    bgr = cv2.imdecode(np.frombuffer(frame.jpeg, dtype=np.uint8), cv2.IMREAD_COLOR)
-    shape = (frame.height_px, frame.width_px)
-    if bgr is None or bgr.shape[:2] != shape:
-        raise PictureError(f"{frame.camera}: picture {frame.seq} is not a {shape[1]}x{shape[0]} JPEG")
-    rgb: Image = np.ascontiguousarray(bgr[:, :, ::-1], dtype=np.uint8)
+    rgb = decode_jpeg(frame.jpeg)
+    if rgb.shape[:2] != (frame.height_px, frame.width_px):
+        raise PictureError(f"{frame.camera}: picture {frame.seq} is not a {frame.width_px}x{frame.height_px} JPEG")
     return Picture(rgb, _depth(frame), Lens.of_frame(frame), frame.stamp_s)
+
+
+def decode_jpeg(data: bytes) -> Image:
+    """RGB, (height, width, 3); empty when the bytes are no picture."""
+    bgr = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_COLOR) if data else None
+    if bgr is None:
+        return np.zeros((0, 0, 3), dtype=np.uint8)
+    return np.ascontiguousarray(bgr[:, :, ::-1], dtype=np.uint8)
 
 
 def _depth(frame: CameraFrame) -> Depth | None:

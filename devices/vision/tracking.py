@@ -18,7 +18,7 @@ MAX_GATE_M = 1.2
 TYPE_WEIGHT = 0.6
 MIN_TYPE_AGREEMENT = -6.0
 """Log of the least overlap of two type distributions that can be one thing."""
-GONE_CONFIDENCE = 0.97
+GONE_CONFIDENCE = 0.98
 MIN_MISSES = 3
 FORGET_S = 120.0
 """A thing out of view is remembered this long under its name."""

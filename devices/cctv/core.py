@@ -1,0 +1,146 @@
+"""A fixed camera on the mesh: pictures in, observations and a text log of changes out."""
+
+import logging
+from collections.abc import Sequence
+from typing import Protocol
+
+from devices.vision.changes import describe
+from devices.vision.detector import Detector
+from devices.vision.lens import Image, Lens
+from devices.vision.look import look_at_frame
+from devices.vision.picture import PictureError, encode_jpeg
+from devices.vision.tracking import Tracked, Tracker
+from devices.vision.view import floor_view
+from wire.bus import CannotRun, Event, Node, Received, Request
+from wire.messages.command import DeviceCard
+from wire.messages.driver import CameraFrame
+from wire.messages.observation import EventLog, ObservationBatch
+from wire.site import Camera, Site, SiteError
+
+log = logging.getLogger("camera")
+
+MESH = "mesh"
+SLACK = 0.9
+"""A picture may come this much of the period after the last one."""
+
+
+class Pictures(Protocol):
+    """Pictures that do not come over the mesh."""
+
+    @property
+    def fault(self) -> str: ...
+    def start(self) -> None: ...
+    def stop(self) -> None: ...
+    def take(self) -> Image | None: ...
+
+
+class CctvCore:
+    """Looks at its camera's pictures, at the camera's rate, with the calibration of the site file."""
+
+    def __init__(
+        self, site: Site, process: str, camera: Camera, detector: Detector, boot_id: str, pictures: Pictures | None
+    ) -> None:
+        self._site, self._process, self._camera = site, process, camera
+        self._detector, self._boot_id, self._pictures = detector, boot_id, pictures
+        self._lens = Lens.of_camera(camera)
+        self._view = floor_view(self._lens, site.wall, site.door)
+        self._tracker = Tracker()
+        self._looked_s: float | None = None
+        self._seq = self._frame_seq = self._line_seq = 0
+
+    def start(self, node: Node) -> None:
+        self._node = node
+        for id in sorted({self._camera.id, self._process}):
+            node.serve("card", id)
+        if self._pictures is None:
+            node.subscribe("frame", self._camera.id)
+        else:
+            self._pictures.start()
+
+    def step(self, now_s: float, events: Sequence[Event]) -> None:
+        newest = None
+        for event in events:
+            match event:
+                case Request(service="card"):
+                    event.reply(self._card())
+                case Received(message=CameraFrame() as frame):
+                    newest = frame
+        if self._pictures is not None:
+            newest = self._take(self._pictures, now_s)
+        if newest is not None and self._due(newest.stamp_s):
+            self._look(newest)
+
+    def stop(self) -> None:
+        if self._pictures is not None:
+            self._pictures.stop()
+
+    def _card(self) -> DeviceCard:
+        return DeviceCard(id=self._camera.id, kind="camera", boot_id=self._boot_id)
+
+    def _due(self, stamp_s: float) -> bool:
+        return self._looked_s is None or stamp_s - self._looked_s >= SLACK / self._camera.picture_hz
+
+    def _take(self, pictures: Pictures, now_s: float) -> CameraFrame | None:
+        """A picture of its own source as a frame, which is published for whoever wants to watch."""
+        if pictures.fault:
+            raise CannotRun(pictures.fault)
+        if not self._due(now_s):
+            return None
+        rgb = pictures.take()
+        if rgb is None:
+            return None
+        self._frame_seq += 1
+        lens = self._lens
+        frame = CameraFrame(
+            camera=self._camera.id,
+            seq=self._frame_seq,
+            stamp_s=now_s,
+            width_px=lens.width_px,
+            height_px=lens.height_px,
+            focal_px=lens.focal_px,
+            position_enu_m=lens.position_enu_m,
+            yaw_rad=lens.yaw_rad,
+            tilt_down_rad=lens.tilt_down_rad,
+            jpeg=encode_jpeg(rgb),
+        )
+        self._node.publish("frame", frame, self._camera.id)
+        return frame
+
+    def _look(self, frame: CameraFrame) -> None:
+        try:
+            seen = look_at_frame(frame, self._detector)
+        except PictureError as error:
+            log.warning("%s", error)
+            return
+        self._looked_s = frame.stamp_s
+        tracked = self._tracker.update(seen)
+        self._seq += 1
+        batch = ObservationBatch(
+            source=self._camera.id,
+            boot_id=self._boot_id,
+            seq=self._seq,
+            stamp_s=frame.stamp_s,
+            kind="cctv",
+            objects=tracked.objects,
+            gone=tracked.gone,
+            view=self._view,
+        )
+        self._node.publish("observation", batch, self._camera.id)
+        self._log_changes(tracked, frame.stamp_s)
+
+    def _log_changes(self, tracked: Tracked, stamp_s: float) -> None:
+        known = [(t.type, t.position_enu_m) for t in self._tracker.tracks if t.confirmed]
+        for change in tracked.changes:
+            self._line_seq += 1
+            line = EventLog(source=self._camera.id, seq=self._line_seq, stamp_s=stamp_s, text=describe(change, known))
+            self._node.publish("event", line, self._camera.id)
+
+
+def camera_of(site: Site, process: str, named: str | None = None) -> Camera:
+    """The camera that a process serves: the one named in its arguments, or `cam-3` for `cctv-3`."""
+    wanted = named if named is not None else f"cam-{process.removeprefix('cctv-')}"
+    for camera in site.camera:
+        if camera.id == wanted:
+            return camera
+    known = ", ".join(camera.id for camera in site.camera) or "none"
+    raise SiteError(f"site {site.name} has no camera {wanted!r} for process {process}; its cameras are {known}")

@@ -148,7 +148,8 @@ def legs(size_m: Vec3, height_m: float, thick_m: float, rgb: Rgb, texture: int =
 def hollow(size_m: Vec3, wall_m: float, rgb: Rgb, inside: Rgb, texture: int = PLAIN) -> Iterator[Part]:
     """A box without its front: back, sides, top and bottom, darker or lighter inside."""
     d, w, h = size_m
-    yield box((-d / 2.0 + wall_m / 2.0, 0.0, h / 2.0), (wall_m, w, h), inside)
+    # The back is a little smaller than what surrounds it: faces in one plane would flicker through each other.
+    yield box((-d / 2.0 + wall_m / 2.0, 0.0, h / 2.0), (wall_m, w - 0.01, h - 0.01), inside)
     for side in (-1.0, 1.0):
         yield box((0.0, side * (w - wall_m) / 2.0, h / 2.0), (d, wall_m, h), rgb, texture)
     for z in (wall_m / 2.0, h - wall_m / 2.0):

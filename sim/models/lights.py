@@ -33,7 +33,9 @@ def desk_lamp(form: Form) -> Iterator[Part]:
     yield cylinder((-d * 0.2, 0.0, h * 0.03), (d * 0.55, w * 0.7, h * 0.06), metal, METAL)
     yield box((-d * 0.28, 0.0, h * 0.42), (0.025, 0.025, h * 0.8), metal, METAL, pitch=-0.10)
     yield box((-d * 0.05, 0.0, h * 0.86), (d * 0.6, 0.025, 0.025), metal, METAL, pitch=-0.12)
-    yield cone((d * 0.24, 0.0, h * 0.83), (d * 0.5, w * 0.8, h * 0.30), metal, METAL)
+    # The hood is translucent: cameras look down on lamps and would not see the bulb.
+    hood = (1.0, 0.80, 0.45) if form.on else metal
+    yield cone((d * 0.24, 0.0, h * 0.83), (d * 0.5, w * 0.8, h * 0.30), hood, METAL, glow=glow * 0.8)
     yield cylinder((d * 0.24, 0.0, h * 0.675), (d * 0.42, w * 0.68, 0.012), bulb, glow=glow)
     yield sphere((d * 0.24, 0.0, h * 0.64), (d * 0.26, w * 0.36, h * 0.14), bulb, glow=glow)
 

@@ -6,6 +6,7 @@ import sys
 from functools import lru_cache
 from typing import Literal
 
+from sim.models import parts
 from sim.render.instances import PartsOf
 from sim.render.picture import Renderer, RenderError
 from sim.scene import Scene
@@ -18,7 +19,7 @@ REMEDY = "install the `sim` extra, libegl1 and libgl1-mesa-dri"
 _log = logging.getLogger(__name__)
 
 
-def make_renderer(scene: Scene, choice: Choice, parts_of: PartsOf) -> Renderer:
+def make_renderer(scene: Scene, choice: Choice = "auto", parts_of: PartsOf = parts) -> Renderer:
     """The renderer asked for; `auto` falls back to PyBullet when OpenGL does not start."""
     if choice == "bullet":
         return _bullet(scene, parts_of)

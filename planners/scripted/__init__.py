@@ -1,0 +1,1 @@
+"""The built-in planner: plain English through a grammar, no model."""

@@ -1,0 +1,253 @@
+"""Clauses as goals: what should be true at the end, what is forbidden on the way, and in what order."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from planners.scripted.agreement import agree
+from planners.scripted.lexicon import Lexicon, called
+from planners.scripted.parse import parse
+from planners.scripted.resolve import Limits, Resolver, share
+from planners.scripted.syntax import OPPOSITE, Act, Body, Group, Groups, Item, Place, Rooms, Unclear
+from planners.scripted.transports import Move, ask_where, placed, read_transport
+from wire.messages.goal import Goal, Predicate, Selector
+from wire.messages.world import WorldState
+
+TEXT_LIMIT = 300
+TAKING = ("it", "them")
+
+
+def read_goals(instruction: str, world: WorldState) -> tuple[Goal, ...]:
+    """What the instruction asks for in this world. Raises Unclear when any of it is not understood."""
+    reader = _Reader(world)
+    for index, item in enumerate(items := parse(instruction, Lexicon(world))):
+        reader.read_item(item, items[index + 1] if index + 1 < len(items) else None)
+    return agree(reader.finish())
+
+
+class _Reader:
+    """Goes through the clauses in the order of doing and collects goals."""
+
+    def __init__(self, world: WorldState) -> None:
+        self._resolver = Resolver(world)
+        self._goals: list[Goal] = []
+        self._stage: list[int] = []
+        self._earlier: list[int] = []
+        self._pending: Move | None = None
+        self._restrained: str | None = None
+        self._trailing: str | None = None
+
+    def finish(self) -> list[Goal]:
+        if self._pending is not None:
+            raise ask_where(self._pending)
+        if not self._goals:
+            raise Unclear("it asks for nothing to be done")
+        return self._goals
+
+    def read_item(self, item: Item, following: Item | None) -> None:
+        self._check_scope(item)
+        if item.joint == "SEPTHEN" and self._stage:
+            self._earlier, self._stage = self._stage, []
+        first_new = len(self._goals)
+        said = item.stages[::-1] if item.late_first else item.stages
+        new = [[i for act in acts for i in self._read_act(act, following)] for acts in said]
+        if len(new) > 1:
+            self._order(item, *(new[::-1] if item.late_first else new))
+        done = [index for stage in new for index in stage]
+        if item.first and first_new:
+            self._put_after(self._stage, done)
+        self._stage += done
+        last = item.stages[-1][-1]
+        self._restrained = last.text if last.forbidden else None
+        self._trailing = item.text if item.trailing else None
+
+    def _order(self, item: Item, early: Sequence[int], late: Sequence[int]) -> None:
+        for acts in item.stages:
+            for act in acts:
+                if act.forbidden:
+                    raise Unclear("a restraint holds all the time, not before or after something", act.text)
+        self._put_after(late, early)
+
+    def _put_after(self, late: Sequence[int], early: Sequence[int]) -> None:
+        for index in late:
+            goal = self._goals[index]
+            self._goals[index] = goal.model_copy(update={"after": tuple(dict.fromkeys((*goal.after, *early)))})
+
+    def _check_scope(self, item: Item) -> None:
+        """A plain "and" after "do not ..." or "... before ..." may or may not carry that on: ask."""
+        if item.joint != "SEPAND":
+            return
+        if self._restrained and not item.stages[0][0].forbidden:
+            asked = f"does 'not' in '{self._restrained}' also hold for '{item.text}'? Put a comma or 'but' between them"
+            raise Unclear(asked, item.text, question=True)
+        if self._trailing:
+            raise Unclear(f"when should '{item.text}' be done? Put a comma before it", item.text, question=True)
+
+    def _read_act(self, act: Act, following: Item | None) -> list[int]:
+        if self._pending is not None and not _speaks_of_it(act):
+            raise ask_where(self._pending)
+        if act.verb in ("put", "take"):
+            self._pending = None
+        new = self._forbid(act) if act.forbidden else self._demand(act, following)
+        start = len(self._goals)
+        for goal in new:
+            text = (goal.text or act.text)[:TEXT_LIMIT]
+            order = () if goal.forbidden else tuple(self._earlier)
+            self._goals.append(goal.model_copy(update={"text": text, "after": order}))
+        return [start + i for i, goal in enumerate(new) if not goal.forbidden]
+
+    # What is asked for
+
+    def _demand(self, act: Act, following: Item | None) -> list[Goal]:
+        if act.verb in ("put", "take"):
+            continued = following is not None and _speaks_of_it(following.stages[0][0])
+            return self._moves(read_transport(act, self._resolver, continued))
+        if act.verb == "change":
+            if act.state is None:
+                raise Unclear(f"should it be on or off at the end? '{act.text}'", act.text, question=True)
+            return self._states(_groups(act), act.state)  # type: ignore[arg-type]
+        if act.verb == "be":
+            return [goal for body in act.bodies for goal in self._body(body)]
+        if act.verb in ("find", "check"):
+            return self._states(_groups(act), "found" if act.verb == "find" else "visited")
+        if act.verb == "go":
+            return [goal for stop in act.stops for goal in self._stop(stop)]
+        if act.verb == "leave":
+            return self._leave(act)
+        raise Unclear(f"I do not know how to '{act.text}'", act.text)
+
+    def _moves(self, moves: Sequence[Move]) -> list[Goal]:
+        goals = []
+        for move in moves:
+            if move.to is None:
+                self._pending = move
+            else:
+                predicate: Predicate = "in" if move.to.type else "at"
+                goals += [Goal(predicate=predicate, subject=s, object=move.to) for s in move.subjects]
+        last = self._resolver.last
+        last.subjects = tuple(s for move in moves for s in move.subjects)
+        last.places = tuple(m.to for m in moves if m.to is not None and m.to.type)
+        return goals
+
+    def _states(self, groups: Groups, predicate: Predicate) -> list[Goal]:
+        heads = share(groups.members)
+        subjects = [s for member in heads for s in self._resolver.subjects(member, predicate)]
+        kept, restrained = self._except(groups, heads, subjects, predicate)
+        self._resolver.last.subjects, self._resolver.last.places = tuple(kept), ()
+        goals = [Goal(predicate=predicate, subject=s) for s in kept]
+        return goals + [Goal(predicate=predicate, subject=s, forbidden=True) for s in restrained]
+
+    def _except(
+        self, groups: Groups, heads: Sequence[Group], subjects: list[Selector], predicate: Predicate
+    ) -> tuple[list[Selector], list[Selector]]:
+        """Selectors without what is excepted, and what is named as an exception although it was not in the list."""
+        restrained: list[Selector] = []
+        for exception in groups.excepted:
+            for out in self._exceptions(exception, heads[-1], predicate):
+                if all(s.type != out.type for s in subjects):
+                    if len(groups.excepted) > 1:
+                        text = groups.text
+                        raise Unclear(f"what should happen to the {called(out.type or '')}?", text, question=True)
+                    restrained.append(out)
+                subjects = [kept for s in subjects if (kept := _without(s, out)) is not None]
+        if groups.excepted and not subjects:
+            raise Unclear("the exception leaves nothing to do", groups.text)
+        return subjects, restrained
+
+    def _exceptions(self, exception: Group | Place, head: Group, predicate: Predicate) -> tuple[Selector, ...]:
+        if isinstance(exception, Place):
+            limits = self._resolver.limits((exception,))
+            return _everywhere(limits, head)
+        thing = exception.thing
+        if thing.head in ("noun", "one") and thing.quant != "all":
+            exception = replace(exception, thing=replace(thing, quant="all"))
+        return self._resolver.subjects(exception, predicate, head.thing)
+
+    def _body(self, body: Body) -> list[Goal]:
+        if body.places and body.state is None:
+            if body.negated:
+                raise Unclear(f"where should it be instead? '{body.text}'", body.text, question=True)
+            return self._moves([placed(body, self._resolver)])
+        state = body.state
+        if body.negated:
+            state = OPPOSITE.get(state) if state else None  # type: ignore[assignment]
+        if state is None or state in ("dirty", "alone"):
+            raise Unclear(f"I cannot bring it about that '{body.text}'", body.text)
+        members = tuple(replace(g, places=(*g.places, *body.places)) for g in body.groups.members)
+        return self._states(replace(body.groups, members=members), state)  # type: ignore[arg-type]
+
+    def _stop(self, stop: Rooms | Group) -> list[Goal]:
+        if isinstance(stop, Rooms):
+            return [Goal(predicate="visited", subject=Selector(room=r)) for r in self._resolver.rooms(stop)]
+        return self._states(Groups(stop.text, (stop,)), "visited")
+
+    def _leave(self, act: Act) -> list[Goal]:
+        if act.state == "alone":
+            return self._restrain(_groups(act), "touched")
+        if act.state is not None:
+            return self._states(_groups(act), act.state)  # type: ignore[arg-type]
+        return self._moves(read_transport(replace(act, verb="put", word="leave"), self._resolver, continued=False))
+
+    # What is forbidden
+
+    def _forbid(self, act: Act) -> list[Goal]:
+        if act.verb in ("put", "take"):
+            return self._forbid_moves(act)
+        if act.verb == "change" and act.state is not None:
+            return self._restrain(_groups(act), act.state)  # type: ignore[arg-type]
+        if act.verb == "be" and act.word in ("turn", "switch", "power"):
+            return [g for b in act.bodies for g in self._restrain(b.groups, b.state)]  # type: ignore[arg-type]
+        if act.verb == "touch":
+            return self._restrain(_groups(act), "touched")
+        if act.verb == "go" and all(isinstance(stop, Rooms) for stop in act.stops):
+            rooms = [r for stop in act.stops if isinstance(stop, Rooms) for r in self._resolver.rooms(stop)]
+            return [Goal(predicate="visited", subject=Selector(room=r), forbidden=True) for r in rooms]
+        if act.verb == "leave" and act.state in OPPOSITE:
+            return self._states(_groups(act), OPPOSITE[act.state])
+        raise Unclear(f"I do not know how to keep to '{act.text}'", act.text)
+
+    def _forbid_moves(self, act: Act) -> list[Goal]:
+        goals = []
+        for move in read_transport(act, self._resolver, continued=False):
+            predicate: Predicate = "in" if not move.to or move.to.type else "at"
+            for subject in move.subjects:
+                every = subject.model_copy(update={"count": None})
+                goals.append(Goal(predicate=predicate, subject=every, object=move.to, forbidden=True))
+        return goals
+
+    def _restrain(self, groups: Groups, predicate: Predicate) -> list[Goal]:
+        if groups.excepted:
+            raise Unclear("a restraint with an exception is not understood", groups.text)
+        subjects = [s for member in share(groups.members) for s in self._resolver.subjects(member, predicate)]
+        self._resolver.last.subjects, self._resolver.last.places = tuple(subjects), ()
+        every = [s.model_copy(update={"count": None}) for s in subjects]
+        return [Goal(predicate=predicate, subject=s, forbidden=True) for s in every]
+
+
+def _groups(act: Act) -> Groups:
+    assert act.groups is not None
+    return act.groups
+
+
+def _speaks_of_it(act: Act) -> bool:
+    """The clause is about what the clause before it took."""
+    members = act.groups.members if act.groups is not None else ()
+    return not act.forbidden and any(g.thing.head in TAKING for g in members)
+
+
+def _everywhere(limits: Limits, head: Group) -> tuple[Selector, ...]:
+    """Things of the list's head type in the places of an exception ("except in the kitchen")."""
+    return tuple(
+        Selector(type=name, room=room, inside=inside, count=None)
+        for name in head.thing.types or (None,)
+        for room in limits.rooms or (None,)
+        for inside in limits.insides or (None,)
+    )
+
+
+def _without(selector: Selector, out: Selector) -> Selector | None:
+    """The selector less what is excepted; None where nothing is left of it."""
+    if out.type is not None and selector.type != out.type:
+        return selector
+    if out.room is None and out.inside is None and out.id is None:
+        return None
+    return selector.model_copy(update={"exclude": (*selector.exclude, out)})

@@ -1,0 +1,97 @@
+"""Tokens to a tree: the grammar of `grammar.lark`, and refusals that name the words it cannot place."""
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+from lark import Lark, Token, UnexpectedInput
+from lark.lexer import Lexer
+
+from planners.scripted.lexicon import Lexicon, Word
+from planners.scripted.syntax import Item, Unclear
+from planners.scripted.tokens import tokens
+from planners.scripted.tree import Builder
+
+NAMING = {"IN", "ON", "INTO", "TO", "FROM", "THE", "ALL"}
+"""Words that belong to the name that follows them when it is not understood."""
+
+STRANGE = {
+    "LIMIT": "I cannot do '{part}': {base}",
+    "NOROOM": "there is no {base} in this building",
+    "NOID": "nothing here is called {base}",
+    "UNSEEN": "no camera here can recognise a {base}",
+}
+"""What to say of words that are known and of no use here."""
+
+
+class _TypedWords(Lexer):
+    """The words come typed; lark's own lexer has nothing to do."""
+
+    def __init__(self, lexer_conf: Any) -> None:
+        pass
+
+    def lex(self, data: Any) -> Iterator[Token]:  # type: ignore[override]  # a lexer of lark's older interface
+        for word in data:
+            yield Token(word.kind, word, start_pos=word.start, end_pos=word.end)
+
+
+@lru_cache(maxsize=1)
+def grammar() -> Lark:
+    text = files("planners.scripted").joinpath("grammar.lark").read_text()
+    return Lark(text, parser="lalr", lexer=_TypedWords, strict=True, propagate_positions=True)
+
+
+def parse(instruction: str, lexicon: Lexicon) -> tuple[Item, ...]:
+    """The clauses of an instruction. Raises Unclear unless every word has been placed."""
+    words = lexicon.words(instruction)
+    _refuse_strangers(words)
+    typed = tokens(words)
+    if not typed:
+        raise Unclear("there is nothing to do in it", instruction.strip())
+    try:
+        tree = grammar().parse(typed)
+    except UnexpectedInput as error:
+        raise _misplaced(error, typed, instruction) from None
+    items: tuple[Item, ...] = Builder(instruction).transform(tree)
+    return items
+
+
+def _refuse_strangers(words: Sequence[Word]) -> None:
+    parts = [(word, _part(words, index)) for index, word in enumerate(words)]
+    unknown = [part for word, part in parts if word.kind == "UNKNOWN"]
+    if unknown:
+        listed = " and ".join(f"'{part}'" for part in unknown[:4])
+        raise Unclear(f"I do not understand {listed}", unknown[0])
+    for word, part in parts:
+        if word.kind == "MAYBE":
+            raise Unclear(f"I do not know '{word.text}': do you mean {word.meaning.base}?", part, question=True)
+        reason = STRANGE.get(word.kind)
+        if reason is not None:
+            raise Unclear(reason.format(part=part, base=word.meaning.base), part)
+
+
+def _part(words: Sequence[Word], index: int) -> str:
+    """A word with the small words before it: "to the moon"."""
+    start = index
+    while start > 0 and words[start - 1].kind in NAMING:
+        start -= 1
+    return " ".join(w.text for w in words[start : index + 1])
+
+
+def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) -> Unclear:
+    token = getattr(error, "token", None)
+    if token is None or token.type == "$END":
+        part = instruction[typed[-1].start : typed[-1].end]
+        return Unclear(f"the instruction stops too early, after '{part}'", part)
+    word: Word = token.value
+    if word.kind.startswith("SEP") or word.kind.endswith("AND"):
+        before = next(w for w in reversed(typed) if w.start < word.start)
+        return Unclear(f"something is missing after '{before.text}'", before.text)
+    end = next((w.start for w in typed if w.start > word.start and w.kind.startswith("SEP")), typed[-1].end)
+    part = instruction[word.start : max(end, word.end)].strip()
+    if word.kind == "ROBOT":
+        return Unclear(f"robots are chosen by the planner: leave out '{word.text}'", part)
+    if word.kind == "OR":
+        return Unclear("say which of them is meant: 'or' leaves it open", part, question=True)
+    return Unclear(f"I do not understand '{part}' at this place", part)

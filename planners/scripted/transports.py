@@ -1,0 +1,154 @@
+"""Where things go: which places after a noun tell the thing, and which one is the destination."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from planners.scripted.lexicon import called
+from planners.scripted.resolve import Resolver, named, one_of, share
+from planners.scripted.syntax import Act, Body, Group, Place, Rooms, Thing, Unclear
+from wire.catalogue import catalogue
+from wire.messages.goal import Selector
+
+
+@dataclass(frozen=True)
+class Move:
+    """Subjects, and the receptacle or room they go to; without one, the next clause must say it."""
+
+    subjects: tuple[Selector, ...]
+    to: Selector | None
+    text: str
+
+
+@dataclass(frozen=True)
+class _Split:
+    """A member's places told apart: those of the thing, the destination, and those of the destination."""
+
+    own: tuple[Place, ...]
+    to: Place | None = None
+    of_to: tuple[Place, ...] = ()
+
+
+def read_transport(act: Act, resolver: Resolver, continued: bool) -> list[Move]:
+    """The moves of a `put` or `take` clause. `continued`: the next clause says where "it" goes."""
+    assert act.groups is not None
+    if act.groups.excepted:
+        raise Unclear("say the exception with the things that are moved", act.groups.text)
+    if act.away:
+        if act.verb == "put" and act.word not in ("throw", "toss") and not act.word.startswith(DISCARDING):
+            raise Unclear(f"where should '{act.groups.text}' go?", act.text, question=True)
+        return [Move(_subjects(list(act.groups.members), resolver), Selector(type="GarbageCan"), act.text)]
+    loose = act.verb == "take"
+    moves: list[Move] = []
+    waiting: list[Group] = []
+    for member in act.groups.members:
+        split = _split(member, loose, continued, resolver)
+        waiting.append(replace(member, places=split.own))
+        if split.to is not None:
+            moves.append(_move(waiting, split, resolver, act.text))
+            waiting = []
+    if waiting:
+        if moves:
+            text = waiting[0].thing.text
+            raise Unclear(f"where should '{text}' go?", text, question=True)
+        moves.append(Move(_subjects(waiting, resolver), None, act.text))
+    return moves
+
+
+DISCARDING = ("throw", "discard", "dispose", "get rid")
+
+
+def _move(members: list[Group], split: _Split, resolver: Resolver, text: str) -> Move:
+    assert split.to is not None
+    subjects = _subjects(members, resolver)
+    to = destination(split.to, split.of_to, resolver)
+    if any(member.thing.head == "everything" for member in members):
+        subjects = tuple(s for s in subjects if s.type != to.type)
+    for subject in subjects:
+        _check_fit(subject, to, text)
+    return Move(subjects, to, text)
+
+
+def _subjects(members: list[Group], resolver: Resolver) -> tuple[Selector, ...]:
+    return tuple(s for member in share(members) for s in resolver.subjects(member, "in"))
+
+
+def _split(member: Group, loose: bool, continued: bool, resolver: Resolver) -> _Split:
+    """Tell the places of one member apart by their prepositions and by what can hold what."""
+    places = member.places
+    for index, place in enumerate(places):
+        if place.preposition in ("TO", "INTO"):
+            return _Split(places[:index], place, places[index + 1 :])
+    if loose and continued:
+        return _Split(places)
+    free = [i for i, place in enumerate(places) if place.preposition in ("IN", "ON") and place.what != "anywhere"]
+    if not free:
+        return _Split(places)
+    if loose:
+        last = places[free[-1]].text
+        asked = f"is '{last}' where '{member.thing.text}' is, or where it should go? Say 'from' or 'to'"
+        raise Unclear(asked, last, question=True)
+    holders = [i for i in free if isinstance(places[i].what, Thing)]
+    at = holders[-1] if holders else free[-1]
+    before = [i for i in holders if i < at]
+    if before and _could_hold(places[at], places[before[-1]], resolver):
+        first, second = places[before[-1]].text, places[at].text
+        asked = f"is '{first}' where '{member.thing.text}' is, or where it should go? Say 'from' or 'into'"
+        raise Unclear(asked, f"{first} {second}", question=True)
+    return _Split(places[:at], places[at], places[at + 1 :])
+
+
+def _could_hold(outer: Place, inner: Place, resolver: Resolver) -> bool:
+    """Whether the second place may tell which of the first is meant ("in the bowl on the table")."""
+    if not isinstance(outer.what, Thing) or not isinstance(inner.what, Thing):
+        return False
+    return any(set(catalogue()[t].allowed_in) & set(outer.what.types) for t in inner.what.types)
+
+
+def destination(place: Place, of_place: Sequence[Place], resolver: Resolver) -> Selector:
+    """The receptacle or the room at which something should end."""
+    if place.what == "there":
+        return Selector(room=resolver.there(place))
+    if isinstance(place.what, Rooms):
+        rooms = resolver.rooms(place.what)
+        if len(rooms) > 1 or of_place:
+            text = " ".join((place.text, *(p.text for p in of_place)))
+            raise Unclear(f"only one place can be the destination: '{text}'", text, question=True)
+        return Selector(room=rooms[0])
+    if not isinstance(place.what, Thing):
+        raise Unclear(f"where exactly is '{place.text}'?", place.text, question=True)
+    thing = place.what
+    if thing.quant in ("all", "both", "count"):
+        raise Unclear(f"things can go to one place only: '{thing.text}'", thing.text, question=True)
+    found = resolver.subjects(Group(thing.text, replace(thing, plural=False)), "holder")
+    if len(found) != 1:
+        raise Unclear(f"which one is meant by '{thing.text}'?", thing.text, question=True)
+    return resolver.narrow(found[0].model_copy(update={"count": 1}), of_place)
+
+
+def placed(body: Body, resolver: Resolver) -> Move:
+    """The move that makes "X is in Y" true."""
+    *own, to = body.places
+    of_to: tuple[Place, ...] = ()
+    if own and isinstance(to.what, Rooms) and isinstance(own[-1].what, Thing):
+        of_to, to = (to,), own.pop()
+    if own:
+        raise Unclear(f"I do not understand '{own[0].text}' at this place", own[0].text)
+    return _move(list(body.groups.members), _Split((), to, of_to), resolver, body.text)
+
+
+def _check_fit(subject: Selector, to: Selector, text: str) -> None:
+    """Refuse what is plainly too large: the smallest usual item in the largest usual receptacle."""
+    if subject.type is None or to.type is None:
+        return
+    if subject.type == to.type and subject.id == to.id:
+        raise Unclear(f"{named(subject.type)} cannot be put in or on itself", text)
+    item = sorted(catalogue()[subject.type].size_p10_m)[:2]
+    room = sorted(catalogue()[to.type].size_p90_m[:2])
+    if catalogue()[to.type].receptacle_mode != "on" and any(a > b for a, b in zip(item, room, strict=True)):
+        raise Unclear(f"{named(subject.type)} does not fit in {named(to.type)}", text)
+
+
+def ask_where(move: Move) -> Unclear:
+    """What to say of a thing taken and put nowhere."""
+    names = one_of(sorted({called(s.type or "") for s in move.subjects}))
+    return Unclear(f"where should the {names} go? '{move.text}' leaves it in a robot's hand", move.text, question=True)

@@ -1,0 +1,1 @@
+"""From goals to a plan graph: what every planner that reasons about goals shares."""

@@ -50,7 +50,6 @@ def reading(sentence: str, world: WorldState = WORLD) -> str:
     try:
         return " ; ".join(notation(goal) for goal in read_goals(sentence, world))
     except Unclear as unclear:
-        assert unclear.reason
         return f"{'?' if unclear.question else '!'} {unclear.part}"
 
 

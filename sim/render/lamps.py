@@ -7,6 +7,7 @@ from sim.scene import Scene
 
 PLACES = 65
 """Rooms a building can have in pictures, and one more for what is in none."""
+WIDE_M = 1e4
 WARMTH = {"Kitchen": 0.25, "LivingRoom": 0.85, "Bedroom": 1.0, "Bathroom": 0.05}
 
 
@@ -17,7 +18,7 @@ def lamp_table(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64], 
     everything = np.array([corner for room in scene.rooms for corner in room.polygon_m] or [(0.0, 0.0)])
     low, high = everything.min(axis=0), everything.max(axis=0)
     lamps[:] = (*(low + high) / 2.0, 2.0 * ceiling_m, 0.3)
-    extents[:] = (*low - 1.0, *high + 1.0)
+    extents[:] = (-WIDE_M, -WIDE_M, WIDE_M, WIDE_M)
     for i, room in enumerate(scene.rooms):
         corners = np.array(room.polygon_m)
         low, high = corners.min(axis=0), corners.max(axis=0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.render import Camera, Picture, Renderer, make_renderer
-from sim.scene import Body, Scene
+from sim.scene import Body, Room, Scene
 from wire.catalogue import PROP_FLAG, PROPS, catalogue, modelled_types
 
 STATES = [(name, prop) for name in modelled_types() for prop in PROPS if catalogue()[name].can(PROP_FLAG[prop])]
@@ -20,8 +20,8 @@ SPOT_M = (4.0, 2.0)
 
 @pytest.fixture(scope="module")
 def renderer():
-    empty = Scene(0, (), (), (), {}, (), ())
-    made = make_renderer(empty, "gl")
+    room = Room("a", "Room", "Kitchen", ((0.0, 0.0), (8.0, 0.0), (8.0, 4.0), (0.0, 4.0)), 0, (0.9, 0.9, 0.9))
+    made = make_renderer(Scene(0, (room,), (), (), {}, (), ()), "gl")
     yield made
     made.close()
 

@@ -98,7 +98,7 @@ class Arm:
         """Raises Refused when the action is not possible as things stand now."""
         rover = self._physics.robots[self.id]
         others = tuple(other.box() for id, other in self._physics.robots.items() if id != self.id)
-        stance = Stance(self.id, rover.motion().position_m, rover.eye_m(), others)
+        stance = Stance(self.id, rover.motion().position_m, rover.eye_m(), others, self._physics.structure)
         if target.held_by is not None or target.gone:
             raise Refused(f"the {target.type} is not there any more")
         check_reach(self._scene, stance, target)

@@ -7,8 +7,8 @@ from sim.cameras import MAST_FOCAL_PX, MAST_HEIGHT_PX, MAST_WIDTH_PX
 from sim.physics import Physics
 from sim.rover import Rover
 from sim.scene import Scene
-from sim.sight import is_visible, obstacles
-from sim.truth import room_of, true_world
+from sim.sight import is_visible, obstacles_around
+from sim.truth import Truth, room_of
 from wire.frames import project
 from wire.goals import holds
 from wire.messages.goal import Goal
@@ -24,6 +24,7 @@ class Judge:
         self._scene = scene
         self._physics = physics
         self._task = task
+        self._truth = Truth(scene)
         self._visited: set[str] = set()
         self._verified: set[int] = set()
         self._seq = 0
@@ -38,24 +39,24 @@ class Judge:
 
     def _seen_from(self, id: str, rover: Rover) -> set[int]:
         eye_m, yaw_rad = rover.eye_m(), rover.motion().yaw_rad
-        near = []
-        for key, body in self._scene.bodies.items():
-            if key in self._verified or body.gone:
-                continue
-            centre_m = body_box(body).centre_m
-            if hypot(centre_m[0] - eye_m[0], centre_m[1] - eye_m[1]) <= SEEN_WITHIN_M and _in_picture(
-                centre_m, eye_m, yaw_rad, rover.tilt_down_rad
-            ):
-                near.append(key)
+        near = [
+            key
+            for key, body in self._scene.bodies.items()
+            if key not in self._verified
+            and hypot(body.position_m[0] - eye_m[0], body.position_m[1] - eye_m[1]) <= SEEN_WITHIN_M
+            and not body.gone
+            and _in_picture(body_box(body).centre_m, eye_m, yaw_rad, rover.tilt_down_rad)
+        ]
         if not near:
             return set()
-        around = obstacles(self._scene, [r.box() for other, r in self._physics.robots.items() if other != id])
+        others = [other.box() for name, other in self._physics.robots.items() if name != id]
+        around = obstacles_around(self._scene, self._physics.structure, others, eye_m, SEEN_WITHIN_M)
         return {key for key in near if is_visible(self._scene, around, eye_m, key)}
 
     def world(self, now_s: float) -> WorldState:
         self._seq += 1
         robots = {id: rover.motion() for id, rover in self._physics.robots.items()}
-        return true_world(self._scene, robots, self._visited, self._verified, now_s, self._seq)
+        return self._truth.world(robots, self._visited, self._verified, now_s, self._seq)
 
     def verdict(self, request: JudgeRequest, now_s: float, sim_s: float) -> JudgeReply:
         """Judge the goals asked about, or the scene's own."""

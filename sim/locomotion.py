@@ -2,7 +2,7 @@
 
 from math import atan2, cos, sin
 
-from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, HEIGHT_M, RANGE_M, sweep
+from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, HEIGHT_M, RANGE_M, Lidar
 from sim.odometry import Drift
 from sim.physics import Physics
 from sim.rover import Wish
@@ -19,6 +19,7 @@ class Locomotion:
         self.id = robot
         self._physics = physics
         self._rover = physics.robots[robot]
+        self._lidar = Lidar(physics, robot)
         self._drift = Drift(f"{seed}/{robot}/odometry")
         self._step_s = step_s
         self._scan_every = max(1, round(1.0 / (SCAN_HZ * step_s)))
@@ -75,7 +76,7 @@ class Locomotion:
             angle_min_rad=ANGLE_MIN_RAD,
             angle_step_rad=ANGLE_STEP_RAD,
             range_max_m=RANGE_M,
-            ranges_m=sweep(self._physics, self.id),
+            ranges_m=self._lidar.sweep(),
         )
 
     def _next(self, stream: str) -> int:

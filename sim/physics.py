@@ -25,8 +25,8 @@ CONTACT_M = 0.001
 MOVED_M = 1e-4
 EPISODE_GAP_S = 0.25
 """Contacts of the same pair that are nearer in time than this are one collision."""
-CONTACT_EVERY = 3
-"""Physics steps from one look at the contacts to the next."""
+PUSH_EVERY = 4
+"""Physics steps from one correction of a robot's velocity, and look at its contacts, to the next."""
 
 
 @dataclass(frozen=True)
@@ -63,10 +63,14 @@ class Physics:
 
     def _add_building(self) -> None:
         bullet = self._bullet
+        self.structure = structure_boxes(self.scene)
+        """Walls and lintels."""
         floor = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1)
         bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, LOOSE)
-        standing = [body_box(b) for _, b in sorted(self.scene.bodies.items()) if is_furniture(b) and not b.gone]
-        add_static_boxes(bullet, structure_boxes(self.scene) + standing, STATIC, EVERYTHING & ~(STATIC | FLOOR))
+        furniture = [body_box(b) for _, b in sorted(self.scene.bodies.items()) if is_furniture(b) and not b.gone]
+        self.standing = self.structure + furniture
+        """All that never moves."""
+        add_static_boxes(bullet, self.standing, STATIC, EVERYTHING & ~(STATIC | FLOOR))
 
     def _add_robot(self, index: int, start: RobotStart) -> Rover:
         group = FIRST_ROBOT << index
@@ -78,12 +82,12 @@ class Physics:
         """Let `steps` physics steps of 1/240 s pass."""
         rovers = tuple(self.robots.values())
         for _ in range(steps):
-            for rover in rovers:
-                rover.push(STEP_S, GRAVITY_MPS2)
+            if self.step_count % PUSH_EVERY == 0:
+                self._count_contacts()
+                for rover in rovers:
+                    rover.push(STEP_S, PUSH_EVERY, GRAVITY_MPS2)
             self._bullet.stepSimulation()
             self.step_count += 1
-            if self.step_count % CONTACT_EVERY == 0:
-                self._count_contacts()
         for rover in rovers:
             rover.tilt(steps * STEP_S)
         self._follow_loose()
@@ -161,7 +165,12 @@ class Physics:
         speeds = (self._bullet.getBaseVelocity(b) for b in self._loose.values())
         return len(self.robots) + sum(any(linear) or any(angular) for linear, angular in speeds)
 
-    # Rays
+    # What else there is
+
+    def moving(self, robot: str) -> list[Box]:
+        """Boxes of the other robots and of what lies on the floor."""
+        others = [rover.box() for id, rover in self.robots.items() if id != robot]
+        return others + [body_box(self.scene.bodies[key]) for key in self._loose]
 
     def cast(self, robot: str, starts_m: Sequence[Vec3], ends_m: Sequence[Vec3]) -> list[float]:
         """How far along each ray (0 to 1) the first thing is that is not this robot; 1 for none."""

@@ -1,15 +1,18 @@
 """Which thing a gripper that reaches to a point gets hold of, and whether the arm and the eye get there."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from sim.boxes import Box, body_box
 from sim.scene import Body, Scene, Vec2, Vec3
-from sim.sight import ancestors, closed_around, contents, hides_contents, is_visible, obstacles
+from sim.sight import ancestors, closed_around, contents, hides_contents, is_visible, obstacles_around
 from wire.catalogue import catalogue
 from wire.messages.driver import GripperAction
 
 REACH_M = 1.2
 """From the body's centre to the nearest point of the thing, in the floor plane."""
+SIGHT_M = 3.0
+"""Nothing that hides a thing in reach is farther than this."""
 POINT_TOLERANCE_M = 0.30
 """A thing within this of the point is what was meant."""
 
@@ -47,6 +50,7 @@ class Stance:
     centre_m: Vec2
     eye_m: Vec3
     others: tuple[Box, ...]
+    structure: Sequence[Box]
 
 
 def resolve(scene: Scene, action: GripperAction, point_m: Vec3, expected_type: str | None, held: int | None) -> Body:
@@ -93,5 +97,6 @@ def check_reach(scene: Scene, stance: Stance, target: Body) -> None:
     away_m = body_box(target).floor_gap_m(stance.centre_m)
     if away_m > REACH_M:
         raise Refused(f"the {target.type} is out of reach: {away_m:.2f} m away, the arm reaches {REACH_M:.2f} m")
-    if not is_visible(scene, obstacles(scene, stance.others), stance.eye_m, target.key):
+    around = obstacles_around(scene, stance.structure, stance.others, stance.eye_m, SIGHT_M)
+    if not is_visible(scene, around, stance.eye_m, target.key):
         raise Refused(f"the {target.type} is out of sight: something blocks the view of it")

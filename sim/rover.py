@@ -73,21 +73,21 @@ class Rover:
         )
         bullet.setCollisionFilterGroupMask(self.body, -1, group, mask)
 
-    def push(self, step_s: float, gravity_mps2: float) -> None:
-        """Before a physics step: move the velocity towards the wish, as far as the accelerations allow."""
+    def push(self, step_s: float, steps: int, gravity_mps2: float) -> None:
+        """Before some physics steps: move the velocity towards the wish, as far as the accelerations allow."""
         position, turn = self._bullet.getBasePositionAndOrientation(self.body)
         linear, angular = self._bullet.getBaseVelocity(self.body)
         yaw_rad = 2.0 * atan2(turn[2], turn[3])
         c, s = cos(yaw_rad), sin(yaw_rad)
         ahead, aside = self._limited()
         dvx, dvy = c * ahead - s * aside - linear[0], s * ahead + c * aside - linear[1]
-        allowed = (ACCELERATION_MPS2 if ahead or aside else BRAKING_MPS2) * step_s
+        allowed = (ACCELERATION_MPS2 if ahead or aside else BRAKING_MPS2) * steps * step_s
         share = min(1.0, allowed / max(1e-9, hypot(dvx, dvy)))
-        most = YAW_ACCELERATION_RADPS2 * step_s
+        most = YAW_ACCELERATION_RADPS2 * steps * step_s
         wish_yaw = max(-MAX_YAW_RATE_RADPS, min(MAX_YAW_RATE_RADPS, self.wish.yaw_rate_radps))
         spin = angular[2] + max(-most, min(most, wish_yaw - angular[2]))
-        # The legs carry the weight: gravity is cancelled and the height held, so that no floor contact is needed.
-        rise = gravity_mps2 * step_s + HEIGHT_GAIN_PER_S * (BODY_CENTRE_M - position[2])
+        # The legs carry the weight: thrown up so that gravity brings it back within the steps, the body needs no floor.
+        rise = gravity_mps2 * step_s * (steps + 1) / 2.0 + HEIGHT_GAIN_PER_S * (BODY_CENTRE_M - position[2])
         self._bullet.resetBaseVelocity(
             self.body, (linear[0] + share * dvx, linear[1] + share * dvy, rise), (0.0, 0.0, spin)
         )

@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.boxes import Box, body_box, structure_boxes
+from sim.boxes import Box, body_box
 from sim.scene import Body, Scene, Vec3
 from wire.catalogue import catalogue
 
@@ -80,12 +80,21 @@ class Obstacles:
         return np.stack((x, y, delta[..., 2]), axis=-1)
 
 
-def obstacles(scene: Scene, robots: Sequence[Box]) -> Obstacles:
-    """Everything solid as it stands now. Structure has owner -1, robots have -2; bodies have their keys."""
-    bodies = [b for b in scene.bodies.values() if not b.gone and b.held_by is None]
-    structure = structure_boxes(scene)
-    owners = [-1] * len(structure) + [-2] * len(robots) + [b.key for b in bodies]
-    return Obstacles(owners, [*structure, *robots, *map(_opaque_box, bodies)])
+def obstacles_around(
+    scene: Scene, structure: Sequence[Box], robots: Sequence[Box], eye_m: Vec3, within_m: float
+) -> Obstacles:
+    """Everything solid near the eye as it stands now. Structure has owner -1, robots have -2; bodies have their keys."""
+    bodies = [
+        b
+        for b in scene.bodies.values()
+        if abs(b.position_m[0] - eye_m[0]) <= within_m + b.size_m[0] + b.size_m[1]
+        and abs(b.position_m[1] - eye_m[1]) <= within_m + b.size_m[0] + b.size_m[1]
+        and b.held_by is None
+        and not b.gone
+    ]
+    walls = [box for box in structure if box.floor_gap_m(eye_m) <= within_m]
+    owners = [-1] * len(walls) + [-2] * len(robots) + [b.key for b in bodies]
+    return Obstacles(owners, [*walls, *robots, *map(_opaque_box, bodies)])
 
 
 def _opaque_box(body: Body) -> Box:

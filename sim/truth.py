@@ -1,10 +1,11 @@
 """The world as it is, in the words of the fused world state: for the evaluator alone."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 
 from sim.boxes import body_box
 from sim.rover import Motion
-from sim.scene import Body, Scene, Vec2
+from sim.scene import Body, Room, Scene, Vec2
 from wire.frames import yaw_deg
 from wire.messages.world import AreaState, ObjectState, PropertyState, RobotState, WorldState
 
@@ -26,40 +27,56 @@ def room_of(scene: Scene, point_m: Vec2) -> str | None:
     return next((room.id for room in scene.rooms if inside(room.polygon_m, point_m)), None)
 
 
-def true_world(
-    scene: Scene,
-    robots: Mapping[str, Motion],
-    visited: Iterable[str],
-    verified: Iterable[int],
-    now_s: float,
-    seq: int,
-) -> WorldState:
-    """Everything there is. `visited` are rooms a robot has been in, `verified` things a robot has seen from near."""
-    rooms, near = set(visited), set(verified)
-    hands = {body.held_by: body.key for body in scene.bodies.values() if body.held_by is not None}
-    return WorldState(
-        seq=seq,
-        stamp_s=now_s,
-        robots=tuple(_robot(scene, id, motion, hands.get(id), now_s) for id, motion in robots.items()),
-        objects=tuple(_object(scene, b, b.key in near, now_s) for b in scene.bodies.values() if not b.gone),
-        areas=tuple(
-            AreaState(
-                id=room.id,
-                name=room.name,
-                kind=room.kind,
-                seen_fraction=1.0 if room.id in rooms else 0.0,
-                camera_fraction=0.0,
-                stamp_s=now_s,
-                source=SOURCE,
-                searched=room.id in rooms,
-            )
-            for room in scene.rooms
-        ),
-    )
+class Truth:
+    """Makes world states. What has not changed since the last one is not made anew: its stamp is that of its change."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._made: dict[int, tuple[object, ObjectState]] = {}
+
+    def world(
+        self,
+        robots: Mapping[str, Motion],
+        visited: AbstractSet[str],
+        verified: AbstractSet[int],
+        now_s: float,
+        seq: int,
+    ) -> WorldState:
+        """Everything there is. `visited` are rooms a robot has been in, `verified` things a robot has seen from near."""
+        bodies = self._scene.bodies.values()
+        hands = {body.held_by: body.key for body in bodies if body.held_by is not None}
+        return WorldState(
+            seq=seq,
+            stamp_s=now_s,
+            robots=tuple(_robot(self._scene, id, motion, hands.get(id), now_s) for id, motion in robots.items()),
+            objects=tuple(self._object(b, b.key in verified, now_s) for b in bodies if not b.gone),
+            areas=tuple(_area(room, room.id in visited, now_s) for room in self._scene.rooms),
+        )
+
+    def _object(self, body: Body, verified: bool, now_s: float) -> ObjectState:
+        mark = (body.position_m, body.yaw_rad, body.parent, body.held_by, verified, tuple(body.props.items()))
+        made = self._made.get(body.key)
+        if made is None or made[0] != mark:
+            made = (mark, _object(self._scene, body, verified, now_s))
+            self._made[body.key] = made
+        return made[1]
 
 
 def true_id(key: int) -> str:
     return f"t-{key}"
+
+
+def _area(room: Room, visited: bool, now_s: float) -> AreaState:
+    return AreaState(
+        id=room.id,
+        name=room.name,
+        kind=room.kind,
+        seen_fraction=1.0 if visited else 0.0,
+        camera_fraction=0.0,
+        stamp_s=now_s,
+        source=SOURCE,
+        searched=visited,
+    )
 
 
 def _robot(scene: Scene, id: str, motion: Motion, held: int | None, now_s: float) -> RobotState:

@@ -1,10 +1,10 @@
-from math import hypot, pi
+from math import cos, hypot, pi, sin
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, sweep
+from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, BEAMS, HEIGHT_M, RANGE_M, Lidar
 from sim.physics import Physics, RobotStart
 from sim.rover import BODY_SIZE_M, Wish
 from tests.sim.small_home import BALL, FRIDGE, MUG, make_small_home
@@ -131,7 +131,7 @@ def test_the_same_commands_give_the_same_world_to_the_last_bit(make_physics):
 
 def test_the_lidar_measures_the_walls_and_sees_other_robots(make_physics):
     physics = make_physics(((2.5, 2.5), 0.0), ((2.5, 3.5), 0.0))
-    ranges = sweep(physics, "dog-1")
+    ranges = Lidar(physics, "dog-1").sweep()
 
     def at(angle_rad):
         return ranges[round((angle_rad - ANGLE_MIN_RAD) / ANGLE_STEP_RAD)]
@@ -141,3 +141,17 @@ def test_the_lidar_measures_the_walls_and_sees_other_robots(make_physics):
     assert at(pi / 2) == pytest.approx(1.0 - BODY_SIZE_M[1] / 2, abs=0.01)
     assert at(0.0) == 0.0  # through the doorway nothing is within 6 m
     assert physics.scene.bodies[FRIDGE].type == "Fridge"
+
+
+@settings(max_examples=25, deadline=None)
+@given(x=st.floats(1.5, 4.4), y=st.floats(1.5, 3.5), yaw_rad=st.floats(-pi, pi))
+def test_the_lidar_agrees_with_rays_through_the_physics(x, y, yaw_rad):
+    physics = Physics(make_small_home(), [RobotStart("dog-1", (x, y), yaw_rad), RobotStart("dog-2", (8.0, 2.5), 0.3)])
+    ranges = Lidar(physics, "dog-1").sweep()
+    angles = [yaw_rad + ANGLE_MIN_RAD + k * ANGLE_STEP_RAD for k in range(BEAMS)]
+    ends = [(x + RANGE_M * cos(a), y + RANGE_M * sin(a), HEIGHT_M) for a in angles]
+    shares = physics.cast("dog-1", [(x, y, HEIGHT_M)] * BEAMS, ends)
+    rays = [RANGE_M * share if share < 1.0 else 0.0 for share in shares]
+    # A beam that grazes an edge may fall on either side of it.
+    assert sum(abs(a - b) > 0.005 for a, b in zip(ranges, rays, strict=True)) <= 2
+    physics.close()

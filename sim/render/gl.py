@@ -58,6 +58,11 @@ class GlRenderer:
         self._instances.set_robot(name, position_m, yaw_rad, holding)
 
     def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
+        # Each renderer has a context of its own, and OpenGL talks to one of them at a time.
+        with self._context:
+            return self._render(camera, with_ids, with_depth)
+
+    def _render(self, camera: Camera, with_ids: bool, with_depth: bool) -> Picture:
         size = (camera.width_px, camera.height_px)
         if size not in self._targets:
             self._targets[size] = _Target(self._context, size)

@@ -142,3 +142,16 @@ def test_a_driver_that_does_not_start_is_found_out(monkeypatch: pytest.MonkeyPat
     fault = choose.gl_fault()
     choose.gl_fault.cache_clear()
     assert fault is not None
+
+
+def test_renderers_of_two_homes_do_not_mix(home: Scene, parts_of: PartsOf):
+    other_home = replace(home, bodies={2: replace(home.bodies[2], look=9)})
+    one, other = make_renderer(home, "gl", parts_of), make_renderer(other_home, "gl", parts_of)
+    first = one.render(VIEWS[1]).rgb, other.render(VIEWS[1]).rgb
+    again = one.render(VIEWS[1]).rgb, other.render(VIEWS[1]).rgb
+    one.close()
+    last = other.render(VIEWS[1]).rgb
+    other.close()
+    assert np.array_equal(first, again)
+    assert np.array_equal(last, first[1])
+    assert not np.array_equal(first[0], first[1])

@@ -60,7 +60,7 @@ class Body:
                 self.floor.see(message, self.others_m)
             case GripperState():
                 self.gripper = message
-                if message.command_id == self._awaited and message.ok is not None and not message.busy:
+                if message.command_id == self._awaited and message.ok is not None:
                     self._awaited = None
             case TrafficOrder():
                 self.order = message

@@ -2,6 +2,7 @@
 
 import logging
 from dataclasses import replace
+from math import cos, dist, sin
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from devices.vision.layout import ROBOT
 from devices.vision.lens import Depth, Lens
 from devices.vision.look import Seen, look_at_frame
 from devices.vision.picture import PictureError
+from devices.vision.projection import Sighting
 from devices.vision.tracking import Tracker
 from devices.vision.view import floor_view
 from wire.messages.driver import CameraFrame
@@ -19,8 +21,10 @@ from wire.site import Site
 
 log = logging.getLogger("eyes")
 
-HAND_M = 0.5
-"""While something is carried, what is nearer to the camera is the load."""
+HAND_FROM_CAMERA_M, HAND_BELOW_CAMERA_M = 0.32, 0.56
+"""Where the robot carries things: ahead of the camera and below it."""
+LOAD_M, TOO_NEAR_M = 0.4, 0.5
+"""While something is carried, what is this near to the hand or to the camera is the load."""
 EVERY_PX = 8
 FARTHEST_M = 6.0
 
@@ -41,7 +45,7 @@ class PictureEyes:
             log.warning("%s", error)
             return None
         if carrying:
-            seen = replace(seen, sightings=tuple(s for s in seen.sightings if s.depth_m > HAND_M))
+            seen = replace(seen, sightings=tuple(s for s in seen.sightings if not is_load(s, seen.lens)))
         tracked = self._tracker.update(seen)
         view = floor_view(seen.lens, self._site.wall, self._site.door)
         self._seq += 1
@@ -72,6 +76,14 @@ class PictureEyes:
             things=things,
             surface_m=surface_points(lens, seen.depth_m),
         )
+
+
+def is_load(sighting: Sighting, lens: Lens) -> bool:
+    """Whether what is seen is what the robot carries itself."""
+    x, y, z = lens.position_enu_m
+    hand = (x + HAND_FROM_CAMERA_M * cos(lens.yaw_rad), y + HAND_FROM_CAMERA_M * sin(lens.yaw_rad))
+    near_hand = dist(sighting.position_enu_m, (*hand, z - HAND_BELOW_CAMERA_M)) < LOAD_M
+    return near_hand or dist(sighting.position_enu_m, lens.position_enu_m) < TOO_NEAR_M
 
 
 def surface_points(lens: Lens, depth_m: Depth | None) -> Points:

@@ -24,8 +24,6 @@ STEP_BACK_S = 1.0
 MOST_TRIES = 5
 MOST_SIDES = 2
 GATE_M, GATE_MOST_M = 0.6, 1.5
-DOOR_SWING_M = 0.85
-"""Standing this far from the middle of what opens leaves room for its door."""
 
 
 class OnTarget(Message):
@@ -84,7 +82,7 @@ def close(robot: Robot, command: Command) -> Skilled:
 
 def toggle_on(robot: Robot, command: Command) -> Skilled:
     """Switch an appliance, a lamp or a tap on."""
-    return (yield from _handle(robot, command.target, "toggle_on"))
+    return (yield from _with_opening(robot, command, "toggle_on", command.target))
 
 
 def toggle_off(robot: Robot, command: Command) -> Skilled:
@@ -132,7 +130,7 @@ def _handle(robot: Robot, target: Target | None, action: GripperAction) -> Skill
     for _ in range(MOST_TRIES):
         if len(attempt.tried_from_m) >= MOST_SIDES:
             break
-        trouble = yield from _come_near(body, attempt)
+        trouble = yield from _come_near(robot, attempt)
         if trouble is not None:
             return last if attempt.tried_from_m and trouble.code == "unreachable" else trouble
         if not places.within_reach(body.position_m, attempt.point_enu_m[:2], target.type):
@@ -148,14 +146,14 @@ def _handle(robot: Robot, target: Target | None, action: GripperAction) -> Skill
     return last
 
 
-def _come_near(body: Body, attempt: Attempt) -> Generator[None, None, Outcome | None]:
+def _come_near(robot: Robot, attempt: Attempt) -> Generator[None, None, Outcome | None]:
     """Stand within reach and look; None when ready for the hand."""
-    target, point = attempt.target, attempt.point_enu_m
-    closest_m = DOOR_SWING_M if attempt.action == "open" else 0.0
+    body, target, point = robot.body, attempt.target, attempt.point_enu_m
+    home, swings = robot.room(target.room or ""), attempt.action in ("open", "close")
     body.note = f"going to {target.type} to {attempt.action} it"
 
     def goals() -> dict[Cell, float]:
-        return dict(places.beside(body.floor, point[:2], target.type, tuple(attempt.tried_from_m), closest_m))
+        return dict(places.beside(body.floor, point[:2], target.type, home, tuple(attempt.tried_from_m), swings))
 
     walked = yield from walk(body, goals)
     if not walked.arrived:

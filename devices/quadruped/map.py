@@ -22,6 +22,7 @@ SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
 OTHER_ROBOT_M = 0.6
+ON_WALL_END_M, WALL_FACE_M = 0.2, 0.03
 ON_WALL_M = 0.12
 """A door whose jambs are this near to a wall's line is a gap in it."""
 
@@ -141,9 +142,12 @@ class FloorMap:
         gaps = away - t[:, None] * along
         return float(np.sqrt((gaps**2).sum(axis=1).min(initial=REACH_M**2)))
 
-    def clear_of_walls(self, start_m: Vec2, end_m: Vec2, margin_m: float = 0.06) -> bool:
-        """Whether the straight line crosses no wall of the site."""
-        return bool((self.along(self.walls_m, start_m, end_m) > margin_m).all())
+    def clear_of_walls(self, start_m: Vec2, end_m: Vec2) -> bool:
+        """Whether the straight line crosses no wall of the site. The thing at its end may hang on a wall."""
+        length = hypot(end_m[0] - start_m[0], end_m[1] - start_m[1])
+        share = max(0.0, 1.0 - ON_WALL_END_M / max(length, 1e-6))
+        short = (start_m[0] + share * (end_m[0] - start_m[0]), start_m[1] + share * (end_m[1] - start_m[1]))
+        return bool((self.along(self.walls_m, start_m, short) > WALL_FACE_M).all())
 
     def along(self, grid: Grid, start_m: Vec2, end_m: Vec2) -> Grid:
         """The grid's values along a straight line, every half cell."""

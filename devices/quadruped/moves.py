@@ -38,7 +38,8 @@ def goto(robot: Robot, command: Command) -> Skilled:
 
     def goals() -> dict[Cell, float]:
         if target is not None:
-            return dict(places.beside(floor, target.position_enu_m[:2], target.type))
+            home = robot.room(target.room or "")
+            return dict(places.beside(floor, target.position_enu_m[:2], target.type, home))
         if room is not None:
             return dict(places.in_room(floor, room, robot.site.door))
         return dict(places.near_point(floor, point_m or body.position_m))

@@ -16,7 +16,10 @@ DOORWAY_M, DOORWAY_PRICE = 1.2, 5.0
 REACH_M = 1.2
 """Of the hand: from the body's centre to the nearest point of the thing, on the floor plane."""
 REACH_SPARE_M = 0.12
+FAR_PRICE = 3.0
 COMFORT_M, COMFORT_PRICE = 0.75, 2.0
+SWING_M = 0.72
+"""From the middle of what opens, beyond its half width: the door of a fridge swings out in front of it."""
 OTHER_SIDE_M = 0.6
 MOST_PLACES = 400
 
@@ -40,35 +43,45 @@ def in_room(floor: FloorMap, room: Room, doors: tuple[Door, ...]) -> Mapping[Cel
 
 
 def beside(
-    floor: FloorMap, point_m: Vec2, type: str, not_from_m: tuple[Vec2, ...] = (), closest_m: float = 0.0
+    floor: FloorMap,
+    point_m: Vec2,
+    type: str,
+    room: Room | None = None,
+    not_from_m: tuple[Vec2, ...] = (),
+    door_swings: bool = False,
 ) -> Mapping[Cell, float]:
     """In reach of a thing and in sight of it, at a comfortable distance; not where it was tried from before."""
-    away = floor.distance_m(point_m)
-    half = half_width_m(type)
-    fits = (floor.clearance_m >= NEEDED_M) & (away <= REACH_M + half - REACH_SPARE_M) & (away >= closest_m)
-    for tried_m in not_from_m:
-        fits &= floor.distance_m(tried_m) > OTHER_SIDE_M
+    away, half = floor.distance_m(point_m), half_width_m(type)
+    closest_m = half + SWING_M if door_swings else 0.0
+    fits = (floor.clearance_m >= NEEDED_M) & (away <= REACH_M + half) & (away >= closest_m)
     price: Grid = (COMFORT_PRICE * np.abs(away - half - COMFORT_M)).astype(np.float32)
-    return {
-        cell: extra
-        for cell, extra in _cells(floor, fits, price).items()
-        if floor.clear_of_walls(floor.centre_m(cell), point_m)
-    }
+    price += np.where(away > REACH_M + half - REACH_SPARE_M, FAR_PRICE, 0.0)
+    return _facing(floor, fits, price, point_m, room, not_from_m)
 
 
 def in_view(
-    floor: FloorMap, point_m: Vec2, nearest_m: float, farthest_m: float, not_from_m: tuple[Vec2, ...] = ()
+    floor: FloorMap,
+    point_m: Vec2,
+    between_m: tuple[float, float],
+    room: Room | None = None,
+    not_from_m: tuple[Vec2, ...] = (),
 ) -> Mapping[Cell, float]:
-    """At a distance from which a thing is seen well, with no wall between; not near where it was not seen from."""
+    """At a distance from which a thing is seen well; not near where it was not seen from."""
     away = floor.distance_m(point_m)
-    ring = (floor.clearance_m >= NEEDED_M) & (away <= farthest_m) & (away >= nearest_m)
+    ring = (floor.clearance_m >= NEEDED_M) & (away >= between_m[0]) & (away <= between_m[1])
+    return _facing(floor, ring, np.zeros_like(away), point_m, room, not_from_m)
+
+
+def _facing(
+    floor: FloorMap, chosen: Mask, price: Grid, point_m: Vec2, room: Room | None, not_from_m: tuple[Vec2, ...]
+) -> Mapping[Cell, float]:
+    """Those cells that no wall parts from the thing, in its own room where that is known and has any."""
     for tried_m in not_from_m:
-        ring &= floor.distance_m(tried_m) > OTHER_SIDE_M
-    return {
-        cell: extra
-        for cell, extra in _cells(floor, ring, np.zeros_like(away)).items()
-        if floor.clear_of_walls(floor.centre_m(cell), point_m)
-    }
+        chosen = chosen & (floor.distance_m(tried_m) > OTHER_SIDE_M)
+    if room is not None and (inside := chosen & floor.inside(room.polygon_m)).any():
+        chosen = inside
+    cells = _cells(floor, chosen, price)
+    return {cell: extra for cell, extra in cells.items() if floor.clear_of_walls(floor.centre_m(cell), point_m)}
 
 
 def within_reach(position_m: Vec2, point_m: Vec2, type: str) -> bool:

@@ -5,21 +5,18 @@ from wire.messages.command import ReasonCode
 _MEANINGS: tuple[tuple[str, ReasonCode], ...] = (
     ("already", "already"),
     ("hand is full", "hand_full"),
-    ("hand full", "hand_full"),
-    ("holds something", "hand_full"),
     ("not holding", "not_holding"),
     ("hand is empty", "not_holding"),
-    ("nothing in the hand", "not_holding"),
     ("closed", "closed"),
     ("out of reach", "unreachable"),
-    ("too far", "unreachable"),
     ("blocked", "blocked"),
     ("in the way", "blocked"),
     ("no free spot", "blocked"),
-    ("line of sight", "blocked"),
+    ("out of sight", "blocked"),
     ("nothing", "not_there"),
-    ("no such thing", "not_there"),
-    ("something else", "not_there"),
+    ("there is no ", "not_there"),
+    ("not there", "not_there"),
+    ("still busy", "driver"),
 )
 
 

@@ -141,12 +141,12 @@ def inspect(robot: Robot, command: Command) -> Skilled:
     yield from await_odometry(body)
     row = catalogue().get(target.type)
     small = row is not None and max(row.size_m) < SMALL_M
-    nearest_m, farthest_m = SMALL_VIEW_M if small else LARGE_VIEW_M
+    between_m, home = SMALL_VIEW_M if small else LARGE_VIEW_M, robot.room(target.room or "")
     point, gate_m = target.position_enu_m, GATE_M + 2.0 * target.spread_m
     tried: list[Vec2] = []
 
     def goals() -> dict[Cell, float]:
-        return dict(places.in_view(body.floor, point[:2], nearest_m, farthest_m, tuple(tried)))
+        return dict(places.in_view(body.floor, point[:2], between_m, home, tuple(tried)))
 
     for _ in range(2):
         walked = yield from walk(body, goals)

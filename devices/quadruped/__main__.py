@@ -8,17 +8,21 @@ from devices.goals_journal import open_journal
 from devices.quadruped.core import QuadrupedCore
 from devices.quadruped.look import Eyes
 from wire.process import main
-from wire.site import Site
+from wire.site import Site, state_dir
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--journal", type=Path, help="where goals are remembered; .run/<site>/<id>.sqlite by default")
+    parser.add_argument(
+        "--journal",
+        type=Path,
+        help="where goals are remembered; <id>.sqlite in the state folder of the site by default",
+    )
     parser.add_argument("--no-vision", action="store_true", help="walk by the lidar only; saves 90 MB")
 
 
 def build(site: Site, process_id: str, journal: Path | None = None, no_vision: bool = False) -> QuadrupedCore:
     boot_id = secrets.token_hex(4)
-    path = journal or Path(".run") / site.name / f"{process_id}.sqlite"
+    path = journal or state_dir(site) / f"{process_id}.sqlite"
     eyes = None if no_vision else open_eyes(site, process_id, boot_id)
     return QuadrupedCore(site, process_id, boot_id, open_journal(path), eyes)
 

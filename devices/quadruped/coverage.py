@@ -17,6 +17,9 @@ LATTICE_M = 0.5
 WALK_PRICE_PER_M = 0.04
 """Walking a metre must show this share of the room more."""
 WALL_M = 0.05
+SAMPLE_M = 0.2
+"""The depth picture is sampled: a measured point stands for what is this near to it."""
+_AROUND_M = np.stack(np.meshgrid(*[np.linspace(-SAMPLE_M, SAMPLE_M, 5)] * 2), axis=-1).reshape(-1, 2)
 
 
 class Coverage:
@@ -37,7 +40,8 @@ class Coverage:
         """One picture more."""
         self._score[self._in_view(look.camera_m, look.yaw_rad, look.hfov_rad)] += 1.0
         if len(look.surface_m):
-            self._score[self._floor.cells_of(look.surface_m[:, :2])] = SEEN
+            around = (look.surface_m[:, None, :2] + _AROUND_M).reshape(-1, 2)
+            self._score[self._floor.cells_of(around)] = SEEN
 
     def gain(self, camera_m: Vec2, yaw_rad: float, hfov_rad: float = 2.0 * np.pi) -> float:
         """Share of the room that a look would show for the first time."""

@@ -87,10 +87,10 @@ def drive_owner(
         _keep_pace(node, roll, pace, tick * step_s)
 
 
-def _sort_in(node: ZenohNode, control_topic: str, timeout_s: float) -> list[Letter]:
+def _sort_in(node: ZenohNode, control_topic: str, timeout_s: float, at_least: int = 1) -> list[Letter]:
     """Pick up the post: the letters of one topic and of presence at once, all others when they are due."""
     control, others = [], []
-    for letter in node.inbox.take(timeout_s):
+    for letter in node.inbox.take(timeout_s, at_least=at_least):
         if letter.kind is Kind.MESSAGE and letter.name == control_topic:
             control.append(letter)
             continue
@@ -109,7 +109,7 @@ def _newest_tick(node: ZenohNode, letters: Iterable[Letter]) -> Tick | None:
 
 
 def _call_roll(node: ZenohNode, roll: Roll, timeout_s: float) -> None:
-    for letter in _sort_in(node, "tick_done", timeout_s):
+    for letter in _sort_in(node, "tick_done", timeout_s, at_least=max(1, len(roll.waiting))):
         if letter.kind is Kind.PRESENCE:
             roll.presence(letter.id, letter.alive)
         elif (done := _read(node, letter, TickDone)) is not None:

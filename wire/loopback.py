@@ -82,8 +82,10 @@ class _Member:
 class LoopbackMesh:
     """Cores of several processes, stepped one after the other: the clock's owner first, then by id."""
 
-    def __init__(self, step_s: float = 0.05, recorder: Recorder | None = None) -> None:
+    def __init__(self, step_s: float = 0.05, recorder: Recorder | None = None, owner: str = "") -> None:
+        """`owner` names a clock's owner that is not a member: one whose recorded messages are injected."""
         self._step_s = step_s
+        self._absent_owner = owner
         self._recorder = recorder
         self._members: dict[str, _Member] = {}
         self._arriving: list[_Member] = []
@@ -145,6 +147,13 @@ class LoopbackMesh:
             self._members[id].core.stop()
         self._members.clear()
 
+    def inject(self, letter: Letter) -> None:
+        """A message with the sender and tick that it had when it was recorded."""
+        self._start_arrivals()
+        for member in self._members.values():
+            if member.node.id != letter.sender and member.node.wants(letter.name, letter.id):
+                member.node.mailbox.hold([letter])
+
     def deliver(self, sender: LoopbackNode, topic: str, id: str, full_key: str, payload: bytes) -> None:
         """To everybody who subscribed; nobody hears himself."""
         sender.seq += 1
@@ -195,7 +204,7 @@ class LoopbackMesh:
 
     def _owner(self, arriving: list[_Member]) -> str:
         owners = [m.node.id for m in [*self._members.values(), *arriving] if m.owner]
-        return owners[0] if owners else ""
+        return owners[0] if owners else self._absent_owner
 
     def _announce(self, id: str, alive: bool) -> None:
         for member in self._members.values():

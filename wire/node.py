@@ -35,10 +35,13 @@ class ZenohNode:
     """`wire.bus.Node` over Zenoh, as a context manager: constructed offline, connected by `with`.
 
     In lockstep the tick is stamped on everything sent, nothing is dropped, and unanswered questions run out by the
-    mesh's clock, which whoever drives the node writes to `tick` and `now_s`.
+    mesh's clock, which whoever drives the node writes to `tick` and `now_s`. `keep_all` has even a slow reader see
+    every message of every topic.
     """
 
-    def __init__(self, link: Link, id: str, role: Role, lockstep: bool = False, owner: str = "") -> None:
+    def __init__(
+        self, link: Link, id: str, role: Role, lockstep: bool = False, owner: str = "", keep_all: bool = False
+    ) -> None:
         self._presence_key = key(link.realm, PRESENCE_PATH, id)
         self._link = link
         self._id = id
@@ -52,7 +55,7 @@ class ZenohNode:
         """The core asked for presence."""
         self.tick = NO_TICK
         self.now_s = 0.0
-        self.inbox = Inbox(keep_newest_only=not lockstep)
+        self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)
         self.mailbox = Mailbox(id, owner)
 
     def __enter__(self) -> Self:

@@ -18,7 +18,7 @@ GUESTS: dict[str, Role] = {"console": "console", "evaluator": "evaluator", "reco
 DICTIONARY = "users.txt"
 CONFINED: frozenset[Role] = frozenset(("cctv", "robot"))
 OWN_PATHS = frozenset(("clock/done/{id}", "health/{id}"))
-"""Keys whose id is the speaking process, not a device."""
+"""Keys whose id is the speaking process, not a device: only it may say them, whoever may hear one may hear all."""
 
 
 class User(NamedTuple):
@@ -111,7 +111,7 @@ def _keys(site: Site, user: User, paths: list[str], speaking: bool = False) -> l
     for path in paths:
         if speaking and path in OWN_PATHS:
             keys.add(_own(site, user, path))
-        elif PLACE in path and user.devices:
+        elif PLACE in path and user.devices and path not in OWN_PATHS:
             keys |= {pattern(site.realm, path, device) for device in user.devices}
         else:
             keys.add(pattern(site.realm, path, None))

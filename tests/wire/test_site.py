@@ -1,0 +1,75 @@
+"""Typos in a site file: one sentence that says where."""
+
+from pathlib import Path
+
+import pytest
+
+from wire.site import SiteError, load_site
+
+GOOD = """
+name = "home"
+[[room]]
+id = "kitchen"
+name = "Kitchen"
+kind = "Kitchen"
+polygon_m = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]]
+[[camera]]
+id = "cam-1"
+position_enu_m = [0.0, 0.0, 2.3]
+yaw_deg = 45.0
+tilt_down_deg = 30.0
+width_px = 640
+height_px = 480
+focal_px = 320.0
+[[process]]
+id = "hub"
+role = "hub"
+module = "hub"
+"""
+
+
+def fault(text: str, folder: Path) -> str:
+    file = folder / "site.toml"
+    file.write_text(text)
+    with pytest.raises(SiteError) as caught:
+        load_site(file)
+    message = str(caught.value)
+    assert message.startswith(str(file))
+    assert "\n" not in message
+    return message
+
+
+def test_a_good_file(tmp_path: Path) -> None:
+    file = tmp_path / "site.toml"
+    file.write_text(GOOD)
+    site = load_site(file)
+    assert site.camera[0].position_enu_m == (0.0, 0.0, 2.3)
+    assert site.router.endpoint == "tcp/127.0.0.1:7447"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "named"),
+    [
+        ('kind = "Kitchen"', 'kind = "Kichen"', "room.0.kind"),
+        ("yaw_deg", "yaw", "camera.0.yaw"),
+        ("yaw_deg = 45.0", 'yaw_deg = "45"', "camera.0.yaw_deg"),
+        ('id = "hub"', 'id = "Hub!"', "process.0.id"),
+        ('role = "hub"', 'role = "hup"', "process.0.role"),
+        ("[4.0, 0.0], [4.0, 3.0]", "[4.0, 0.0]", "room.0.polygon_m"),
+        ("focal_px = 320.0", "focal_px = nan", "camera.0.focal_px"),
+        ('name = "home"', "", "name"),
+        ("[[camera]]", "[[kamera]]", "kamera"),
+    ],
+)
+def test_a_typo_is_named_with_its_place(wrong: str, right: str, named: str, tmp_path: Path) -> None:
+    assert wrong in GOOD
+    assert f": {named}: " in fault(GOOD.replace(wrong, right, 1), tmp_path)
+
+
+def test_no_toml_at_all(tmp_path: Path) -> None:
+    assert "not valid TOML" in fault(GOOD.replace("[[room]]", "[[room"), tmp_path)
+
+
+def test_no_file(tmp_path: Path) -> None:
+    with pytest.raises(SiteError, match="no such site file"):
+        load_site(tmp_path / "none.toml")

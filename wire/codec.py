@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 import msgpack
 from pydantic import ValidationError
 
+from wire.faults import describe
 from wire.messages.driver import CameraFrame
 from wire.messages.operator import TaskState, WhyReply
 from wire.messages.plan import PlanReply, PlanRequest, PlanState
@@ -26,8 +27,6 @@ _MAX_ENTRIES = 64
 """Of one map: fields of a message, or its properties."""
 _MAX_ELEMENTS = 16_384
 """Of one array."""
-_FAULTS_NAMED = 3
-_PATH_NAMED = 8
 
 
 class WireError(ValueError):
@@ -56,7 +55,7 @@ def decode(message_type: type[M], payload: bytes, key: str = "") -> M:
     try:
         return message_type.model_validate(value)
     except ValidationError as error:
-        raise WireError(f"{where}: {_faults(error, message_type)}") from None
+        raise WireError(f"{where}: {describe(error, message_type)}") from None
 
 
 def _unpack(payload: bytes, message_type: type[Message], where: str) -> Any:
@@ -73,26 +72,8 @@ def _unpack(payload: bytes, message_type: type[Message], where: str) -> Any:
     except (ValueError, TypeError) as error:
         # ValueError covers msgpack's ExtraData and FormatError too; a map key that cannot be hashed is a TypeError
         fault = f"not valid msgpack ({str(error) or type(error).__name__})"
-    raise WireError(f"{where}: {fault}; a msgpack map with the fields of {message_type.__name__} is expected")
+    raise WireError(f"{where}: {fault}; a map with the fields of {message_type.__name__} is expected")
 
 
 def _too_big(message_type: type[Message], size: int, where: str) -> str:
     return f"{where}: {size} bytes are too many; a {message_type.__name__} may take {max_bytes(message_type)}"
-
-
-def _faults(error: ValidationError, message_type: type[Message]) -> str:
-    faults = error.errors(include_url=False, include_context=False)
-    texts = [_fault(fault["type"], fault["loc"], fault["msg"], message_type) for fault in faults[:_FAULTS_NAMED]]
-    if len(faults) > _FAULTS_NAMED:
-        texts.append(f"and {len(faults) - _FAULTS_NAMED} more")
-    return "; ".join(texts)
-
-
-def _fault(kind: str, place: tuple[int | str, ...], text: str, message_type: type[Message]) -> str:
-    path = ".".join(str(part)[:40] for part in place[:_PATH_NAMED]) + ("..." if len(place) > _PATH_NAMED else "")
-    if kind == "extra_forbidden":
-        known = f"; {message_type.__name__} has {', '.join(message_type.model_fields)}" if len(place) == 1 else ""
-        return f"{path}: unknown field, leave it out{known}"
-    if not place:
-        return f"a msgpack map with the fields of {message_type.__name__} is expected"
-    return f"{path}: {text[0].lower()}{text[1:]}"

@@ -2,11 +2,14 @@
 
 import os
 import tomllib
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
 
 
@@ -153,11 +156,39 @@ def load_site(path: Path) -> Site:
 
 
 def parse_site(data: dict[str, Any], where: str) -> Site:
+    """Check what was read from `where`."""
     try:
-        return Site.model_validate(_tuples(data))
+        site = Site.model_validate(_tuples(data))
     except ValidationError as error:
-        faults = "; ".join(f"{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
-        raise SiteError(f"{where}: {faults}") from None
+        raise SiteError(f"{where}: {describe(error, Site)}") from None
+    faults = [*_repeated_ids(site), *_unknown_rooms(site)]
+    if faults:
+        raise SiteError(f"{where}: {'; '.join(faults)}")
+    return site
+
+
+def _repeated_ids(site: Site) -> Iterator[str]:
+    tables: dict[str, Iterable[Room | Door | Camera | Robot | Process]] = {
+        "room": site.room,
+        "door": site.door,
+        "camera": site.camera,
+        "robot": site.robot,
+        "process": site.process,
+    }
+    for table, rows in tables.items():
+        counts = Counter(row.id for row in rows)
+        yield from (
+            f"{table}: the id {id} stands there {n} times, give each its own" for id, n in counts.items() if n > 1
+        )
+
+
+def _unknown_rooms(site: Site) -> Iterator[str]:
+    known = {room.id for room in site.room}
+    named = [(f"door.{i}.rooms", room) for i, door in enumerate(site.door) for room in door.rooms]
+    named += [(f"camera.{i}.room", camera.room) for i, camera in enumerate(site.camera) if camera.room is not None]
+    for place, room in named:
+        if room not in known:
+            yield f"{place}: there is no room {room}; the rooms are {', '.join(sorted(known))}"
 
 
 def _tuples(value: Any) -> Any:

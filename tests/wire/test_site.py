@@ -51,7 +51,12 @@ def test_a_good_file(tmp_path: Path) -> None:
     ("wrong", "right", "named"),
     [
         ('kind = "Kitchen"', 'kind = "Kichen"', "room.0.kind"),
-        ("yaw_deg", "yaw", "camera.0.yaw"),
+        ("yaw_deg", "yaw_dge", "camera.0.yaw_deg: is missing; camera.0.yaw_dge: unknown field, is yaw_deg meant?"),
+        (
+            'id = "cam-1"',
+            'id = "cam-1"\nroom = "attic"',
+            "camera.0.room: there is no room attic; the rooms are kitchen",
+        ),
         ("yaw_deg = 45.0", 'yaw_deg = "45"', "camera.0.yaw_deg"),
         ('id = "hub"', 'id = "Hub!"', "process.0.id"),
         ('role = "hub"', 'role = "hup"', "process.0.role"),
@@ -63,7 +68,12 @@ def test_a_good_file(tmp_path: Path) -> None:
 )
 def test_a_typo_is_named_with_its_place(wrong: str, right: str, named: str, tmp_path: Path) -> None:
     assert wrong in GOOD
-    assert f": {named}: " in fault(GOOD.replace(wrong, right, 1), tmp_path)
+    assert f": {named}" in fault(GOOD.replace(wrong, right, 1), tmp_path)
+
+
+def test_an_id_twice(tmp_path: Path) -> None:
+    twice = GOOD + '[[process]]\nid = "hub"\nrole = "hub"\nmodule = "hub"\n'
+    assert "process: the id hub stands there 2 times" in fault(twice, tmp_path)
 
 
 def test_no_toml_at_all(tmp_path: Path) -> None:

@@ -12,9 +12,11 @@ def dining_table(form: Form) -> Iterator[Part]:
     d, w, h = form.size_m
     wood = form.pick(WOODS)
     if form.chance.random() < 0.3:
-        yield cylinder((0.0, 0.0, h - 0.02), (d, w, 0.04), wood, WOOD)
-        yield cylinder((0.0, 0.0, h / 2.0), (0.12, 0.12, h - 0.06), shade(wood, 0.8), WOOD)
-        yield cylinder((0.0, 0.0, 0.02), (d * 0.5, w * 0.5, 0.04), shade(wood, 0.8), WOOD)
+        yield box((0.0, 0.0, h - 0.025), (d, w, 0.05), wood, WOOD)
+        yield box((0.0, 0.0, h * 0.25), (0.05, w * 0.6, 0.08), shade(wood, 0.8), WOOD)
+        for side in (-1.0, 1.0):
+            yield box((0.0, side * w * 0.32, h / 2.0), (0.10, 0.10, h - 0.06), shade(wood, 0.85), WOOD)
+            yield box((0.0, side * w * 0.32, 0.03), (d * 0.8, 0.10, 0.06), shade(wood, 0.8), WOOD)
         return
     yield box((0.0, 0.0, h - 0.02), (d, w, 0.04), wood, WOOD)
     yield box((0.0, 0.0, h - 0.08), (d * 0.86, w * 0.9, 0.08), shade(wood, 0.8), WOOD)

@@ -15,6 +15,7 @@ from wire.loopback import LoopbackMesh
 from wire.messages.command import CardRequest, DeviceCard
 from wire.messages.observation import EventLog
 from wire.node import ZenohNode, node_for
+from wire.recording import read_recording
 
 pytestmark = pytest.mark.walk
 CORES = ("sim", "hub", "dog-1", "dog-2")
@@ -166,3 +167,21 @@ def test_no_orphans(tmp_path: Path) -> None:
             parent.kill()
             mesh.wait(lambda: Presence("hub", False) in looker.collect(0.1))
         assert b"hub stopped" in parent.communicate()[1]
+
+
+def test_a_killed_recorder_leaves_a_good_recording(tmp_path: Path) -> None:
+    out = tmp_path / "recording"
+    with WalkMesh(tmp_path, secured=True) as mesh:
+        recorder = mesh.run("wire.recorder", "recorder", "--out", str(out))
+        mesh.wait(lambda: "recording into" in mesh.log("recorder"))
+        for id in CORES:
+            mesh.run_core(id)
+        mesh.wait(lambda: out.stat().st_size > 100_000)
+        recorder.kill()
+        recorder.wait()
+        records = list(read_recording(out))
+    assert {"event/dog-1", "event/dog-2", "robot/dog-1/progress"} <= {record.key for record in records}
+    assert not any(record.key.startswith("gt/") for record in records)
+    lines = [record for record in records if record.key == "event/dog-1"]
+    ticks = [record.tick for record in lines]
+    assert ticks == list(range(ticks[0], ticks[0] + len(ticks))), "not one is missing"

@@ -31,7 +31,7 @@ class SimCore:
             raise SiteError(f"{site.name}: there is no [sim] table; add one with a seed, or start no sim process")
         self.scene = scene
         starts = [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in site.robot]
-        self.physics = Physics(scene, starts)
+        self.physics = Physics(scene, starts, site.sim.legs)
         self._renderer = renderer
         self._step_s = site.clock.step_s
         self._substeps = _substeps(site)

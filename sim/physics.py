@@ -10,7 +10,8 @@ from math import atan2
 
 from sim.boxes import Box, body_box, structure_boxes
 from sim.bullet import GRAVITY_MPS2, STEP_S, add_static_boxes, open_bullet
-from sim.rover import Rover
+from sim.legs import legged_rover
+from sim.rover import Rover, one_body_rover
 from sim.scene import Body, Scene, Vec2, Vec3
 from wire.catalogue import catalogue
 
@@ -42,13 +43,16 @@ def is_furniture(body: Body) -> bool:
 
 
 class Physics:
-    def __init__(self, scene: Scene, robots: Sequence[RobotStart]) -> None:
+    """With `legs` the robots are articulated, at ten times the cost."""
+
+    def __init__(self, scene: Scene, robots: Sequence[RobotStart], legs: bool = False) -> None:
         self.scene = scene
+        self._legs = legs
         self.step_count = 0
         self.collisions = 0
         self.moved: set[int] = set()
         """Keys of what has moved or changed since somebody emptied this set."""
-        self._bullet = open_bullet()
+        self.bullet = open_bullet()
         self._last_contact: dict[tuple[str, str], int] = {}
         self._touching: set[str] = set()
         self._loose: dict[int, int] = {}
@@ -59,14 +63,16 @@ class Physics:
             self.place(key)
 
     def close(self) -> None:
-        self._bullet.disconnect()
+        self.bullet.disconnect()
 
     def _add_building(self) -> None:
-        bullet = self._bullet
+        bullet = self.bullet
         self.structure = structure_boxes(self.scene)
         """Walls and lintels."""
-        floor = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1)
-        bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, LOOSE)
+        self._floor = bullet.createMultiBody(
+            0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1
+        )
+        bullet.setCollisionFilterGroupMask(self._floor, -1, FLOOR, EVERYTHING & ~(RAY | STATIC))
         furniture = [body_box(b) for _, b in sorted(self.scene.bodies.items()) if is_furniture(b) and not b.gone]
         self.standing = self.structure + furniture
         """All that never moves."""
@@ -74,7 +80,9 @@ class Physics:
 
     def _add_robot(self, index: int, start: RobotStart) -> Rover:
         group = FIRST_ROBOT << index
-        return Rover(self._bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING & ~FLOOR)
+        if self._legs:
+            return legged_rover(self.bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING)
+        return one_body_rover(self.bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING & ~FLOOR)
 
     # Time
 
@@ -86,7 +94,7 @@ class Physics:
                 self._count_contacts()
                 for rover in rovers:
                     rover.push(STEP_S, PUSH_EVERY, GRAVITY_MPS2)
-            self._bullet.stepSimulation()
+            self.bullet.stepSimulation()
             self.step_count += 1
         for rover in rovers:
             rover.tilt(steps * STEP_S)
@@ -95,9 +103,9 @@ class Physics:
     def _count_contacts(self) -> None:
         self._touching.clear()
         for rover in self.robots.values():
-            for contact in self._bullet.getContactPoints(rover.body):
+            for contact in self.bullet.getContactPoints(rover.body):
                 other = contact[2] if contact[1] == rover.body else contact[1]
-                if contact[8] <= CONTACT_M:
+                if contact[8] <= CONTACT_M and other != self._floor:
                     self._touching.add(rover.id)
                     self._note_contact(rover.id, other)
 
@@ -133,36 +141,36 @@ class Physics:
     def _drop_body(self, key: int) -> None:
         bullet_body = self._loose.pop(key, None)
         if bullet_body is not None:
-            self._bullet.removeBody(bullet_body)
+            self.bullet.removeBody(bullet_body)
 
     def _add_loose(self, body: Body) -> int:
         box = body_box(body)
         volume_m3 = 8.0 * box.half_m[0] * box.half_m[1] * box.half_m[2]
         least, most = LOOSE_MASS_KG
-        made: int = self._bullet.createMultiBody(
+        made: int = self.bullet.createMultiBody(
             max(least, min(most, DENSITY_KGPM3 * volume_m3)),
-            self._bullet.createCollisionShape(self._bullet.GEOM_BOX, halfExtents=box.half_m),
+            self.bullet.createCollisionShape(self.bullet.GEOM_BOX, halfExtents=box.half_m),
             useMaximalCoordinates=1,
             basePosition=box.centre_m,
-            baseOrientation=self._bullet.getQuaternionFromEuler((0.0, 0.0, box.yaw_rad)),
+            baseOrientation=self.bullet.getQuaternionFromEuler((0.0, 0.0, box.yaw_rad)),
         )
-        self._bullet.setCollisionFilterGroupMask(made, -1, LOOSE, EVERYTHING)
-        for state in (self._bullet.ACTIVATION_STATE_ENABLE_SLEEPING, self._bullet.ACTIVATION_STATE_SLEEP):
-            self._bullet.changeDynamics(made, -1, activationState=state)
+        self.bullet.setCollisionFilterGroupMask(made, -1, LOOSE, EVERYTHING)
+        for state in (self.bullet.ACTIVATION_STATE_ENABLE_SLEEPING, self.bullet.ACTIVATION_STATE_SLEEP):
+            self.bullet.changeDynamics(made, -1, activationState=state)
         return made
 
     def _follow_loose(self) -> None:
         """Take over into the scene what was pushed; what lies inside a pushed thing goes along."""
         for key, bullet_body in self._loose.items():
             body = self.scene.bodies[key]
-            (x, y, z), turn = self._bullet.getBasePositionAndOrientation(bullet_body)
+            (x, y, z), turn = self.bullet.getBasePositionAndOrientation(bullet_body)
             base_m = (x, y, z - body.size_m[2] / 2.0)
             if max(abs(a - b) for a, b in zip(base_m, body.position_m, strict=True)) > MOVED_M:
                 self.moved |= move_with_contents(self.scene, key, base_m, 2.0 * atan2(turn[2], turn[3]))
 
     def awake_count(self) -> int:
         """How many bodies the solver is busy with."""
-        speeds = (self._bullet.getBaseVelocity(b) for b in self._loose.values())
+        speeds = (self.bullet.getBaseVelocity(b) for b in self._loose.values())
         return len(self.robots) + sum(any(linear) or any(angular) for linear, angular in speeds)
 
     # What else there is
@@ -175,7 +183,7 @@ class Physics:
     def cast(self, robot: str, starts_m: Sequence[Vec3], ends_m: Sequence[Vec3]) -> list[float]:
         """How far along each ray (0 to 1) the first thing is that is not this robot; 1 for none."""
         group = FIRST_ROBOT << list(self.robots).index(robot)
-        hits = self._bullet.rayTestBatch(
+        hits = self.bullet.rayTestBatch(
             starts_m, ends_m, numThreads=1, collisionFilterMask=EVERYTHING & ~(group | FLOOR)
         )
         return [hit[2] for hit in hits]

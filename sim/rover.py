@@ -1,4 +1,4 @@
-"""A robot as one rigid body that obeys velocity commands: it accelerates within limits, contacts stop it."""
+"""A robot that obeys velocity commands: it accelerates within limits, contacts stop it. One rigid body by default."""
 
 from dataclasses import dataclass
 from math import atan2, cos, hypot, sin
@@ -47,50 +47,38 @@ class Wish:
 
 
 class Rover:
-    """Zero inertia about x and y means infinite there for the solver: the body cannot tip."""
+    """A body in the physics that follows a wish."""
 
-    def __init__(self, bullet: Any, robot: str, start_m: Vec2, yaw_rad: float, group: int, mask: int) -> None:
+    def __init__(self, bullet: Any, robot: str, body: int) -> None:
         self.id = robot
+        self.body = body
         self.wish = Wish()
         self.tilt_down_rad = self.wish.tilt_down_rad
         self._bullet = bullet
-        self.body: int = bullet.createMultiBody(
-            MASS_KG,
-            _shape(bullet),
-            useMaximalCoordinates=1,
-            basePosition=(*start_m, BODY_CENTRE_M),
-            baseOrientation=bullet.getQuaternionFromEuler((0.0, 0.0, yaw_rad)),
-        )
-        bullet.changeDynamics(
-            self.body,
-            -1,
-            mass=MASS_KG,  # without it, PyBullet makes a rigid body's mass 0 when its inertia is set
-            localInertiaDiagonal=(0.0, 0.0, YAW_INERTIA_KGM2),
-            lateralFriction=FRICTION,
-            linearDamping=0.0,
-            angularDamping=0.0,
-            activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
-        )
-        bullet.setCollisionFilterGroupMask(self.body, -1, group, mask)
 
     def push(self, step_s: float, steps: int, gravity_mps2: float) -> None:
         """Before some physics steps: move the velocity towards the wish, as far as the accelerations allow."""
         position, turn = self._bullet.getBasePositionAndOrientation(self.body)
         linear, angular = self._bullet.getBaseVelocity(self.body)
         yaw_rad = 2.0 * atan2(turn[2], turn[3])
-        c, s = cos(yaw_rad), sin(yaw_rad)
-        ahead, aside = self._limited()
-        dvx, dvy = c * ahead - s * aside - linear[0], s * ahead + c * aside - linear[1]
-        allowed = (ACCELERATION_MPS2 if ahead or aside else BRAKING_MPS2) * steps * step_s
-        share = min(1.0, allowed / max(1e-9, hypot(dvx, dvy)))
-        most = YAW_ACCELERATION_RADPS2 * steps * step_s
-        wish_yaw = max(-MAX_YAW_RATE_RADPS, min(MAX_YAW_RATE_RADPS, self.wish.yaw_rate_radps))
-        spin = angular[2] + max(-most, min(most, wish_yaw - angular[2]))
+        (x_mps, y_mps), spin = self._next_velocity((linear[0], linear[1]), angular[2], yaw_rad, steps * step_s)
         # The legs carry the weight: thrown up so that gravity brings it back within the steps, the body needs no floor.
         rise = gravity_mps2 * step_s * (steps + 1) / 2.0 + HEIGHT_GAIN_PER_S * (BODY_CENTRE_M - position[2])
-        self._bullet.resetBaseVelocity(
-            self.body, (linear[0] + share * dvx, linear[1] + share * dvy, rise), (0.0, 0.0, spin)
-        )
+        self._bullet.resetBaseVelocity(self.body, (x_mps, y_mps, rise), (0.0, 0.0, spin))
+
+    def _next_velocity(
+        self, velocity_mps: Vec2, yaw_rate_radps: float, yaw_rad: float, span_s: float
+    ) -> tuple[Vec2, float]:
+        """Planar velocity in the site frame and yaw rate, one span later."""
+        c, s = cos(yaw_rad), sin(yaw_rad)
+        ahead, aside = self._limited()
+        dvx, dvy = c * ahead - s * aside - velocity_mps[0], s * ahead + c * aside - velocity_mps[1]
+        allowed = (ACCELERATION_MPS2 if ahead or aside else BRAKING_MPS2) * span_s
+        share = min(1.0, allowed / max(1e-9, hypot(dvx, dvy)))
+        most = YAW_ACCELERATION_RADPS2 * span_s
+        wished = max(-MAX_YAW_RATE_RADPS, min(MAX_YAW_RATE_RADPS, self.wish.yaw_rate_radps))
+        spin = yaw_rate_radps + max(-most, min(most, wished - yaw_rate_radps))
+        return (velocity_mps[0] + share * dvx, velocity_mps[1] + share * dvy), spin
 
     def _limited(self) -> Vec2:
         ahead, aside = self.wish.forward_mps, self.wish.left_mps
@@ -120,6 +108,29 @@ class Rover:
         x, y = motion.position_m
         c, s = cos(motion.yaw_rad), sin(motion.yaw_rad)
         return (x + MAST_FORWARD_M * c, y + MAST_FORWARD_M * s, MAST_TOP_M)
+
+
+def one_body_rover(bullet: Any, robot: str, start_m: Vec2, yaw_rad: float, group: int, mask: int) -> Rover:
+    """Body and mast in one piece. Zero inertia about x and y means infinite there for the solver: it cannot tip."""
+    body: int = bullet.createMultiBody(
+        MASS_KG,
+        _shape(bullet),
+        useMaximalCoordinates=1,
+        basePosition=(*start_m, BODY_CENTRE_M),
+        baseOrientation=bullet.getQuaternionFromEuler((0.0, 0.0, yaw_rad)),
+    )
+    bullet.changeDynamics(
+        body,
+        -1,
+        mass=MASS_KG,  # without it, PyBullet makes a rigid body's mass 0 when its inertia is set
+        localInertiaDiagonal=(0.0, 0.0, YAW_INERTIA_KGM2),
+        lateralFriction=FRICTION,
+        linearDamping=0.0,
+        angularDamping=0.0,
+        activationState=bullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+    )
+    bullet.setCollisionFilterGroupMask(body, -1, group, mask)
+    return Rover(bullet, robot, body)
 
 
 def _shape(bullet: Any) -> int:

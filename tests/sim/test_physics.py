@@ -155,3 +155,25 @@ def test_the_lidar_agrees_with_rays_through_the_physics(x, y, yaw_rad):
     # A beam that grazes an edge may fall on either side of it.
     assert sum(abs(a - b) > 0.005 for a, b in zip(ranges, rays, strict=True)) <= 2
     physics.close()
+
+
+def test_legs_trot_stand_and_stop_at_walls():
+    physics = Physics(make_small_home(), [RobotStart("dog-1", (2.0, 2.5), 0.0)], legs=True)
+    rover = physics.robots["dog-1"]
+    physics.advance(120)
+    assert rover.motion().position_m == pytest.approx((2.0, 2.5), abs=0.01)
+    rover.wish = Wish(forward_mps=0.5)
+    physics.advance(480)
+    assert 2.7 < rover.motion().position_m[0] < 3.1
+    rover.wish = Wish(yaw_rate_radps=1.2)
+    physics.advance(240)
+    assert 0.9 < rover.motion().yaw_rad < 1.3
+    assert physics.collisions == 0
+    rover.wish = Wish(forward_mps=0.6)
+    physics.advance(1600)
+    assert rover.motion().position_m[1] < 4.95
+    assert physics.collisions >= 1
+    (_, _, height_m), turn = physics.bullet.getBasePositionAndOrientation(rover.body)
+    assert 0.25 < height_m < 0.4
+    assert abs(turn[0]) + abs(turn[1]) < 0.1
+    physics.close()

@@ -8,12 +8,15 @@ from sim.bullet import STEP_S
 from sim.cameras import Cameras
 from sim.carrier import Arm
 from sim.faults import Faults
+from sim.generator import make_home
 from sim.judge import Judge
 from sim.locomotion import Locomotion
+from sim.models import parts
 from sim.physics import Physics, RobotStart
-from sim.render import Renderer
+from sim.render import Renderer, make_renderer
+from sim.render.picture import RenderError
 from sim.scene import Scene
-from wire.bus import Event, Node, Received, Request
+from wire.bus import CannotRun, Event, Node, Received, Request
 from wire.messages.driver import GripperCommand, VelocityCommand
 from wire.messages.truth import JudgeRequest, TruthState, TruthTask
 from wire.site import Site, SiteError
@@ -113,6 +116,18 @@ class SimCore:
             renderer.set_robot(robot, (*motion.position_m, 0.0), motion.yaw_rad, holding)
         for frame in self._cameras.shoot(renderer, self._tick, now_s):
             self._faults.pass_frame(frame, now_s)
+
+
+def build(site: Site, process_id: str) -> SimCore:
+    """The simulator of a site: its home drawn from the seed, its cameras if pictures can be drawn at all."""
+    if site.sim is None:
+        raise SiteError(f"{site.name}: {process_id} needs a [sim] table; add one with a seed")
+    scene = make_home(site.sim.seed)
+    try:
+        renderer = make_renderer(scene, site.sim.renderer, parts)
+    except RenderError as error:
+        raise CannotRun(str(error)) from error
+    return SimCore(site, scene, TruthTask(instruction="", goals=()), renderer)
 
 
 def _substeps(site: Site) -> int:

@@ -11,7 +11,7 @@ from math import hypot
 
 from hub.floor import Doorway, FloorPlan
 from hub.parking import Parking
-from hub.ways import approaches, cut, path_to_path_m, point_to_path_m
+from hub.ways import cut, path_to_path_m, point_to_path_m
 from wire.model import Vec2
 
 _MARGIN_M = 0.12
@@ -23,8 +23,12 @@ _STOP_M = 0.7
 _AHEAD_M = 2.6
 """This much of a path is kept clear for the one that goes first."""
 _HARD_AHEAD_M = 0.35
+_SWEPT_M = 0.2
 _REST_S = 1.0
 _SWAP_S = 4.0
+_STIR_M = 0.1
+_STUCK_S = 5.0
+_REIGN_S = 6.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +73,15 @@ class Traffic:
     _next: int = 0
     _claims: dict[str, str] = field(default_factory=dict)
     _aside: dict[str, Vec2] = field(default_factory=dict)
+    _moved: dict[str, tuple[Vec2, float]] = field(default_factory=dict)
+    """Where each robot was when it last moved or wanted nothing, and when that was."""
+    _supreme: str | None = None
+    _supreme_s: float = 0.0
+    _reigns: dict[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self._moves: dict[str, list[Vec2]] = {}
+        """What each robot sweeps until the next look, of those already told."""
         self._parking = Parking(self.floor, self.blocked)
 
     def rule(self, movers: Sequence[Mover], now_s: float) -> dict[str, Ruling]:
@@ -78,11 +89,18 @@ class Traffic:
         for mover in movers:
             self._parking.tread(mover.position_m)
             self._ticket(mover, now_s)
+            self._watch(mover, now_s)
+        self._crown(movers, now_s)
         self._claim(movers)
         order = sorted(movers, key=lambda m: self._rank(m))
         rulings: dict[str, Ruling] = {}
+        self._moves = {m.id: [m.position_m] for m in movers}
         for index, mover in enumerate(order):
-            rulings[mover.id] = self._rule_one(mover, order[:index], movers, now_s)
+            ruling = rulings[mover.id] = self._rule_one(mover, order[:index], movers, now_s)
+            if ruling.go:
+                aside = ruling.step_aside_m
+                way = mover.way if aside is None else [mover.position_m, aside]
+                self._moves[mover.id] = cut(way, _SWEPT_M)
         return rulings
 
     def _ticket(self, mover: Mover, now_s: float) -> None:
@@ -96,17 +114,39 @@ class Traffic:
         elif ticket is not None and now_s > ticket.until_s and mover.id not in self._aside:
             del self._tickets[mover.id]
 
-    def _rank(self, mover: Mover) -> tuple[bool, bool, int, str]:
+    def _watch(self, mover: Mover, now_s: float) -> None:
+        last = self._moved.get(mover.id)
+        if last is None or not mover.path_m or _apart_m(last[0], mover.position_m) > _STIR_M:
+            self._moved[mover.id] = (mover.position_m, now_s)
+
+    def _crown(self, movers: Sequence[Mover], now_s: float) -> None:
+        """Whoever has waited too long goes before everybody, in turn: no knot holds for ever."""
+        stuck = [m for m in movers if now_s - self._moved[m.id][1] > _STUCK_S]
+        reigning = next((m for m in movers if m.id == self._supreme and m.path_m), None)
+        if reigning is not None and now_s - max(self._supreme_s, self._moved[reigning.id][1]) < _REIGN_S:
+            return
+        self._supreme = None
+        if stuck:
+            heir = min(stuck, key=lambda m: (self._reigns.get(m.id, 0), self._rank(m)))
+            self._supreme, self._supreme_s = heir.id, now_s
+            self._reigns[heir.id] = self._reigns.get(heir.id, 0) + 1
+
+    def _rank(self, mover: Mover) -> tuple[bool, bool, bool, int, str]:
         """Smaller goes first."""
         ticket = self._tickets.get(mover.id)
         in_door = mover.id in self._claims.values()
-        return (ticket is None, not in_door, ticket.number if ticket is not None else 0, mover.id)
+        number = ticket.number if ticket is not None else 0
+        return (mover.id != self._supreme, ticket is None, not in_door, number, mover.id)
 
     def _claim(self, movers: Sequence[Mover]) -> None:
         """Doors belong to who is in them, else to who comes first and asks."""
         by_id = {m.id: m for m in movers}
         for door in self.floor.doors:
             holder = by_id.get(self._claims.get(door.id, ""))
+            ruler = by_id.get(self._supreme or "")
+            if ruler is not None and _heads_for(ruler, door):
+                self._claims[door.id] = ruler.id
+                continue
             if holder is not None and (_in_zone(holder, door) or _heads_for(holder, door)):
                 continue
             self._claims.pop(door.id, None)
@@ -121,7 +161,8 @@ class Traffic:
         for first in before:
             if first.path_m and self._in_way(mover, first):
                 return self._make_way(mover, first, before, movers, now_s)
-        self._aside.pop(mover.id, None)
+        if self._aside.pop(mover.id, None) is not None:
+            return Ruling(go=False, because="the way is free again")  # its path is still the one aside
         if not mover.path_m:
             return Ruling(go=True)
         near = cut(mover.way, _STOP_M)
@@ -132,20 +173,19 @@ class Traffic:
         for first in before:
             if first.path_m and self._comes_into(near, mover, first):
                 return Ruling(go=False, because=f"{first.id} goes first")
-        bumped = self._bumps(mover, movers)
+        bumped = self._bumps(mover, mover.way, movers)
         return Ruling(go=bumped is None, because=f"{bumped} is in front" if bumped is not None else "")
 
     def _in_way(self, mover: Mover, first: Mover) -> bool:
         """Whether a robot, where it is, keeps another from its path."""
         clear = mover.radius_m + first.radius_m + _MARGIN_M
         ahead = cut(first.way, _AHEAD_M)
-        if point_to_path_m(mover.position_m, ahead) >= clear:
+        nearest = point_to_path_m(mover.position_m, ahead)
+        if nearest >= clear:
             return mover.id in self._aside and point_to_path_m(mover.position_m, cut(first.way, 2 * _AHEAD_M)) < clear
-        if hypot(mover.position_m[0] - first.position_m[0], mover.position_m[1] - first.position_m[1]) < clear:
-            step = cut(first.way, _HARD_AHEAD_M)[-1]
-            if not approaches(first.position_m, step, mover.position_m):
-                return False  # beside or behind it: the way leads away
-        return mover.id in self._aside or not _leads_away(mover, first, clear)
+        if nearest > _apart_m(mover.position_m, first.position_m) - 0.01:
+            return False  # beside or behind it: the way leads away
+        return mover.id in self._aside or first.id == self._supreme or not _leads_away(mover, first, clear)
 
     def _comes_into(self, near: list[Vec2], mover: Mover, first: Mover) -> bool:
         clear = mover.radius_m + first.radius_m + _MARGIN_M
@@ -166,6 +206,9 @@ class Traffic:
             self._aside.pop(mover.id, None)
             return Ruling(go=False, because=f"in the way of {first.id}, with nowhere to go")
         self._aside[mover.id] = spot
+        bumped = self._bumps(mover, [mover.position_m, spot], movers)
+        if bumped is not None:
+            return Ruling(go=False, because=f"{bumped} is in front of the place to step aside to")
         return Ruling(go=True, step_aside_m=spot, because=f"in the way of {first.id}")
 
     def _swap(self, mover: Mover, first: Mover, now_s: float) -> None:
@@ -179,16 +222,16 @@ class Traffic:
             if owner == first.id:
                 self._claims[door] = mover.id
 
-    def _bumps(self, mover: Mover, movers: Sequence[Mover]) -> str | None:
+    def _bumps(self, mover: Mover, way_m: Sequence[Vec2], movers: Sequence[Mover]) -> str | None:
         """Who would be touched by the next short stretch."""
-        step = cut(mover.way, _HARD_AHEAD_M)
+        step, swept = cut(way_m, _HARD_AHEAD_M), cut(way_m, _SWEPT_M)
         for other in movers:
             if other.id == mover.id:
                 continue
-            close = mover.radius_m + other.radius_m + 0.03
-            if point_to_path_m(other.position_m, step) < close and approaches(
-                mover.position_m, step[-1], other.position_m
-            ):
+            close = mover.radius_m + other.radius_m + 0.05
+            apart = _apart_m(mover.position_m, other.position_m)
+            nearest = min(point_to_path_m(other.position_m, step), path_to_path_m(swept, self._moves[other.id]))
+            if nearest < close and nearest < apart - 0.01:
                 return other.id
         return None
 
@@ -198,13 +241,17 @@ def _leads_away(mover: Mover, first: Mover, clear_m: float) -> bool:
     if not mover.path_m:
         return False
     mine = cut(mover.way, 1.0)
-    gap = hypot(mover.position_m[0] - first.position_m[0], mover.position_m[1] - first.position_m[1])
-    further = hypot(mine[-1][0] - first.position_m[0], mine[-1][1] - first.position_m[1])
+    gap = _apart_m(mover.position_m, first.position_m)
+    further = _apart_m(mine[-1], first.position_m)
     return further > gap + 0.5 and gap > 0.6 * clear_m
 
 
 def _away_m(mover: Mover, door: Doorway) -> float:
-    return hypot(mover.position_m[0] - door.middle_m[0], mover.position_m[1] - door.middle_m[1])
+    return _apart_m(mover.position_m, door.middle_m)
+
+
+def _apart_m(a: Vec2, b: Vec2) -> float:
+    return hypot(a[0] - b[0], a[1] - b[1])
 
 
 def _in_zone(mover: Mover, door: Doorway) -> bool:

@@ -23,10 +23,6 @@ def cut(path_m: Sequence[Vec2], length_m: float) -> list[Vec2]:
     return result
 
 
-def length_m(path_m: Sequence[Vec2]) -> float:
-    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(path_m))
-
-
 def point_to_path_m(point_m: Vec2, path_m: Sequence[Vec2]) -> float:
     """Distance from a point to the nearest piece of a polyline."""
     if len(path_m) == 1:
@@ -39,11 +35,6 @@ def path_to_path_m(a: Sequence[Vec2], b: Sequence[Vec2]) -> float:
     if _cross(a, b):
         return 0.0
     return min(min(point_to_path_m(p, b) for p in a), min(point_to_path_m(p, a) for p in b))
-
-
-def approaches(from_m: Vec2, to_m: Vec2, point_m: Vec2) -> bool:
-    """Whether a step brings one nearer to a point."""
-    return hypot(to_m[0] - point_m[0], to_m[1] - point_m[1]) < hypot(from_m[0] - point_m[0], from_m[1] - point_m[1])
 
 
 def _cross(a: Sequence[Vec2], b: Sequence[Vec2]) -> bool:

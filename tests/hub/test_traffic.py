@@ -1,0 +1,111 @@
+"""Robots through doors: nobody collides, all arrive."""
+
+import random
+from math import hypot
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hub.floor import FloorPlan
+from hub.traffic import Mover, Traffic
+from tests.hub.scenes import flat
+from tests.hub.toys import STEP_M, way
+from wire.model import Vec2
+
+RADIUS_M = 0.38
+
+
+class _Walker:
+    """A robot that does what the orders say, exactly."""
+
+    def __init__(self, id: str, at: Vec2, goal: Vec2) -> None:
+        self.id, self.xy, self.goal = id, at, goal
+        self.path = way(flat(), at, goal)
+        self.aside: Vec2 | None = None
+
+    def move(self, go: bool, aside: Vec2 | None) -> None:
+        if aside is None and self.aside is not None:
+            self.path = [] if self.arrived else way(flat(), self.xy, self.goal)
+        self.aside = aside
+        path = [aside] if aside is not None else self.path
+        if not go or not path:
+            return
+        gap = hypot(path[0][0] - self.xy[0], path[0][1] - self.xy[1])
+        if gap <= STEP_M:
+            self.xy = path[0]
+            if aside is None:
+                path.pop(0)
+        else:
+            share = STEP_M / gap
+            self.xy = (self.xy[0] + share * (path[0][0] - self.xy[0]), self.xy[1] + share * (path[0][1] - self.xy[1]))
+
+    arrived = False
+
+
+def _play(walkers: list[_Walker], steps: int = 4000) -> tuple[float, int]:
+    """(least gap between two bodies, steps until all have arrived once)."""
+    traffic = Traffic(FloorPlan(flat()), lambda point, radius: False)
+    least = 9.0
+    rulings = {}
+    for step in range(steps):
+        if step % 4 == 0:
+            movers = [Mover(w.id, w.xy, tuple([w.aside] if w.aside else w.path), RADIUS_M) for w in walkers]
+            rulings = traffic.rule(movers, step * 0.05)
+        for walker in walkers:
+            ruling = rulings[walker.id]
+            walker.move(ruling.go, ruling.step_aside_m)
+            walker.arrived = walker.arrived or (walker.aside is None and not walker.path)
+        for i, a in enumerate(walkers):
+            for b in walkers[:i]:
+                least = min(least, hypot(a.xy[0] - b.xy[0], a.xy[1] - b.xy[1]) - 2 * RADIUS_M)
+        if all(w.arrived for w in walkers):
+            return least, step
+    return least, steps
+
+
+def test_two_head_on_through_one_door() -> None:
+    walkers = [_Walker("a", (2.0, 2.0), (6.0, 2.0)), _Walker("b", (6.0, 2.0), (2.0, 2.0))]
+    least, steps = _play(walkers)
+    assert least > 0.0
+    assert steps < 1500
+
+
+def test_an_idle_robot_in_a_door_steps_aside() -> None:
+    walkers = [_Walker("a", (2.0, 2.0), (6.0, 2.0)), _Walker("b", (4.3, 2.0), (4.3, 2.0))]
+    walkers[1].path, walkers[1].arrived = [], True
+    least, steps = _play(walkers)
+    assert least > 0.0
+    assert steps < 1200
+
+
+def _spread(rng: random.Random, count: int) -> list[Vec2]:
+    spots: list[Vec2] = []
+    while len(spots) < count:
+        spot = (rng.uniform(0.6, 11.4), rng.uniform(0.6, 3.4))
+        if min(abs(spot[0] - 4.0), abs(spot[0] - 8.0)) < 1.0:
+            continue
+        if all(hypot(spot[0] - s[0], spot[1] - s[1]) > 1.1 for s in spots):
+            spots.append(spot)
+    return spots
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5, 6])
+def test_teams_through_doors(count: int) -> None:
+    for seed in range(8):
+        rng = random.Random(100 * count + seed)
+        starts, goals = _spread(rng, count), _spread(rng, count)
+        walkers = [_Walker(f"dog-{i}", starts[i], goals[i]) for i in range(count)]
+        least, steps = _play(walkers)
+        assert least > 0.0, (seed, least)
+        assert steps < 4000, (seed, [(w.id, w.xy, w.path, w.aside) for w in walkers])
+
+
+@given(seed=st.integers(0, 100_000), count=st.integers(2, 4))
+@settings(max_examples=15, deadline=None)
+def test_random_teams(seed: int, count: int) -> None:
+    rng = random.Random(seed)
+    starts, goals = _spread(rng, count), _spread(rng, count)
+    least, steps = _play([_Walker(f"dog-{i}", starts[i], goals[i]) for i in range(count)])
+    assert least > 0.0
+    assert steps < 4000

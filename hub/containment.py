@@ -9,9 +9,10 @@ from wire.catalogue import catalogue
 
 _REACH_M = 1.7
 _ON_SLACK_M = 0.18
-_SEATS = frozenset({"ArmChair", "Bed", "Chair", "Sofa", "Toilet"})
+_SEATS = frozenset({"ArmChair", "Bed", "Chair", "Sofa"})
 """Things are put on these far below their tops: on the seat."""
-_LEVELS = frozenset({"ShelvingUnit"})
+_LEVELS = frozenset({"CoffeeMachine", "ShelvingUnit", "Toilet"})
+"""Things may stand at any height of these."""
 _LEAST = 0.35
 
 
@@ -37,13 +38,13 @@ def _fit(thing: Thing, known: Shape, bottom_m: float, other: Thing) -> float:
     if holder.receptacle_mode is None or holder.half_diagonal_m < 0.9 * known.half_diagonal_m:
         return 0.0
     away = hypot(thing.x - other.x, thing.y - other.y) / holder.half_diagonal_m
-    if away > 1.15:
+    if away > (1.1 if holder.receptacle_mode == "on" else 0.9):
         return 0.0
     height = _height_fit(bottom_m, thing.z, other, holder)
     if height <= 0.0:
         return 0.0
     usual = 0.2 if other.type in _usual(thing.type) else 0.0
-    kept = 0.15 if thing.receptacle == other.id else 0.0
+    kept = (0.6 if thing.handled_s > 0.0 else 0.15) if thing.receptacle == other.id else 0.0
     small = 0.15 / (1.0 + holder.half_diagonal_m)  # of two that fit, the smaller one: the plate on the table
     return 0.55 * height + 0.35 * (1.15 - away) + usual + kept + small - 0.15
 
@@ -58,8 +59,7 @@ def _height_fit(bottom_m: float, middle_m: float, other: Thing, holder: Shape) -
     if holder.receptacle_mode == "on" and other.type not in _SEATS | _LEVELS:
         return 1.0 - abs(bottom_m - high_m) / (_ON_SLACK_M + 0.12)
     if other.type in _SEATS:
-        low_m += 0.25 * holder.height_m
-        return 1.0 if low_m <= bottom_m <= high_m else 0.0
+        return 1.0 - abs(bottom_m - low_m - 0.5 * holder.height_m) / 0.4
     slack = 0.08
     if low_m - slack <= middle_m <= high_m + slack:
         return 1.0

@@ -10,6 +10,7 @@ from wire.model import Vec2, Vec3
 
 _LOST_S = 3.0
 _BODY_M = 0.45
+_BODY_HEIGHT_M = 0.55
 _MEET_S = 4.0
 
 
@@ -105,9 +106,11 @@ class Fleet:
         there = [r for r in self.robots.values() if r.present]
         return waited_s > _MEET_S or (bool(there) and all(r.card is not None for r in there))
 
-    def near(self, x: float, y: float) -> bool:
+    def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""
-        return any(hypot(r.position_m[0] - x, r.position_m[1] - y) < _BODY_M for r in self.robots.values() if r.present)
+        x, y, z = point_enu_m
+        bodies = [r.position_m for r in self.robots.values() if r.present]
+        return z < _BODY_HEIGHT_M and any(hypot(b[0] - x, b[1] - y) < _BODY_M for b in bodies)
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

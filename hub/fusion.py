@@ -53,7 +53,7 @@ class Source:
 class Fusion:
     """Takes batches into a set of things."""
 
-    def __init__(self, things: Things, trust: Trust, robot_near: Callable[[float, float], bool]) -> None:
+    def __init__(self, things: Things, trust: Trust, robot_near: Callable[[Vec3], bool]) -> None:
         self.things, self.trust = things, trust
         self.sources: dict[str, Source] = {}
         self._robot_near = robot_near
@@ -101,7 +101,7 @@ class Fusion:
             _restart(thing, seen)
             self.things.settle(thing)
         if thing is None:
-            if self._robot_near(seen.position_enu_m[0], seen.position_enu_m[1]):
+            if self._robot_near(seen.position_enu_m):
                 return  # part of a robot, or what it carries, taken for something new
             thing = self.things.new(seen.type, seen.position_enu_m, stamp_s)
             _restart(thing, seen)

@@ -21,9 +21,9 @@ vec3 light(vec3 at, vec3 n, vec4 lamp, vec4 extent) {
     vec3 to_lamp = lamp.xyz - at;
     float direct = max(dot(n, to_lamp), 0.0) / (1.0 + 0.45 * dot(to_lamp, to_lamp));
     float window = max(dot(n, vec3(0.48, -0.60, 0.64)), 0.0);
-    float ambient = 0.56 + 0.06 * n.z + 0.05 * n.x - 0.03 * n.y + 0.10 * max(-n.z, 0.0);
+    float ambient = 0.54 + 0.06 * n.z + 0.05 * n.x - 0.03 * n.y + 0.10 * max(-n.z, 0.0);
     vec3 warm = mix(vec3(1.0), vec3(1.10, 0.98, 0.80), lamp.w);
-    return (vec3(ambient) + 0.60 * direct * warm + 0.14 * window) * corner_light(at, n, extent);
+    return (vec3(ambient) + 0.56 * direct * warm + 0.13 * window) * corner_light(at, n, extent);
 }
 """
 

@@ -21,7 +21,8 @@ from wire.node import ZenohNode, node_for, open_session
 ROUNDS = 2000
 
 
-def _spread(samples_s: list[float]) -> dict[str, float]:
+def spread(samples_s: list[float]) -> dict[str, float]:
+    """Median and 99th percentile in milliseconds."""
     ordered = sorted(samples_s)
     return {
         "median_ms": 1000.0 * statistics.median(ordered),
@@ -30,8 +31,8 @@ def _spread(samples_s: list[float]) -> dict[str, float]:
     }
 
 
-def bare_round_trip(place: Stage) -> dict[str, float]:
-    """put -> sample -> put -> sample between two plain sessions through the router."""
+def bare_round_trip(place: Stage, pause_s: float = 0.0) -> dict[str, float]:
+    """put -> sample -> put -> sample between two plain sessions through the router, one every `pause_s` at most."""
     child = place.child("bare_echo")
     with open_session(client_config(link_for(place.site, "hub"))) as session:
         answers = session.declare_subscriber(f"{place.site.realm}/{PONG}")
@@ -44,8 +45,10 @@ def bare_round_trip(place: Stage) -> dict[str, float]:
             ping.put(payload)
             answers.recv()
             samples.append(time.perf_counter() - began)
+            if pause_s:
+                time.sleep(pause_s)
     child.kill()
-    return _spread(samples[50:])
+    return spread(samples[50:])
 
 
 def node_round_trip(place: Stage) -> dict[str, float]:
@@ -61,7 +64,7 @@ def node_round_trip(place: Stage) -> dict[str, float]:
             _wait_for_report(node)
             samples.append(time.perf_counter() - began)
     child.kill()
-    return _spread(samples[50:])
+    return spread(samples[50:])
 
 
 def _wait_for_report(node: ZenohNode) -> None:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from sim.deeds import Deed
 from sim.manipulation import DURATION_S, RULES, Attempt
 from sim.physics import Physics
 from sim.reaching import Refused, Stance, check_reach, resolve
@@ -26,6 +27,7 @@ class Arm:
 
     def __init__(self, robot: str, scene: Scene, physics: Physics) -> None:
         self.id = robot
+        self.deeds: list[Deed] = []
         self._scene = scene
         self._physics = physics
         self._held: int | None = None
@@ -69,6 +71,7 @@ class Arm:
             self._say(job.command, ok=False, reason=str(refused))
             return
         point_m = RULES[job.command.action].effect(attempt)
+        self.deeds.append(Deed(job.command.action, job.target, self._held))
         if job.command.action == "pickup":
             self._held = job.target
         elif job.command.action == "put":

@@ -43,7 +43,7 @@ class SimCore:
         self._cameras = Cameras(site, self.physics, self._legs)
         self._appliances = Appliances(scene) if site.sim.smart_appliances else None
         self._faults = Faults(site.sim.fault, site.sim.seed)
-        self._judge = Judge(scene, self.physics, task)
+        self._judge = Judge(scene, self.physics, self._arms, task)
         self._judge_every = max(1, round(1.0 / (JUDGE_HZ * self._step_s)))
         self._began_s: float | None = None
         self._tick = -1

@@ -1,9 +1,12 @@
 """The evaluator's memory and verdict: which rooms were entered, which things were seen, which goals are true."""
 
+from collections.abc import Mapping
 from math import hypot
 
 from sim.boxes import body_box
 from sim.cameras import MAST_FOCAL_PX, MAST_HEIGHT_PX, MAST_WIDTH_PX
+from sim.carrier import Arm
+from sim.deeds import breach
 from sim.physics import Physics
 from sim.rover import Rover
 from sim.scene import Scene
@@ -20,9 +23,10 @@ SEEN_WITHIN_M = 3.0
 
 
 class Judge:
-    def __init__(self, scene: Scene, physics: Physics, task: TruthTask) -> None:
+    def __init__(self, scene: Scene, physics: Physics, arms: Mapping[str, Arm], task: TruthTask) -> None:
         self._scene = scene
         self._physics = physics
+        self._arms = arms
         self._task = task
         self._truth = Truth(scene)
         self._visited: set[str] = set()
@@ -62,7 +66,7 @@ class Judge:
         """Judge the goals asked about, or the scene's own."""
         goals = self._task.goals if request.goals is None else request.goals
         world = self.world(now_s)
-        states = tuple(_state(goal, world) for goal in goals)
+        states = tuple(self._state(goal, world) for goal in goals)
         return JudgeReply(
             stamp_s=now_s,
             task=self._task,
@@ -72,9 +76,12 @@ class Judge:
             sim_s=sim_s,
         )
 
-
-def _state(goal: Goal, world: WorldState) -> GoalState:
-    return GoalState(goal=goal, holds=holds(goal, world))
+    def _state(self, goal: Goal, world: WorldState) -> GoalState:
+        if not goal.forbidden:
+            return GoalState(goal=goal, holds=holds(goal, world))
+        deeds = [deed for arm in self._arms.values() for deed in arm.deeds]
+        note = breach(goal, deeds, self._visited, world)
+        return GoalState(goal=goal, holds=not note, note=note)
 
 
 def _in_picture(

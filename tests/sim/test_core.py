@@ -194,9 +194,22 @@ def test_a_robot_drives_through_a_doorway_and_takes_a_mug(make_mesh):
     holds_mug = Goal(predicate="in", subject=Selector(type="Mug"), object=Selector(type="DiningTable"), negated=True)
     visited = [Goal(predicate="visited", subject=Selector(room=room)) for room in ("kitchen", "living")]
     found = Goal(predicate="found", subject=Selector(type="Mug"))
-    reply = mesh.call("judge", JudgeRequest(goals=(holds_mug, found, *visited)), role="evaluator")
+    spared = Goal(predicate="touched", subject=Selector(type="Laptop"), forbidden=True)
+    reply = mesh.call("judge", JudgeRequest(goals=(holds_mug, found, spared, *visited)), role="evaluator")
     assert reply.success
     assert reply.collisions == 0
+    forbidden = [
+        Goal(predicate="touched", subject=Selector(type="Mug"), forbidden=True),
+        Goal(predicate="in", subject=Selector(type="Mug"), forbidden=True),
+        Goal(predicate="visited", subject=Selector(room="living"), forbidden=True),
+    ]
+    reply = mesh.call("judge", JudgeRequest(goals=tuple(forbidden)), role="evaluator")
+    assert [state.note for state in reply.goals] == [
+        "pickup was done with the Mug",
+        "pickup was done with the Mug",
+        "a robot has been in living",
+    ]
+    assert not any(state.holds for state in reply.goals)
 
 
 def test_the_judge_knows_the_scenes_own_task_and_what_is_true(make_mesh):

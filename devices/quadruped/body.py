@@ -21,6 +21,7 @@ TILT_STEP_RAD = 0.1
 WALK_TILT_RAD = 0.45
 BUMPER_M = 0.5
 MOST_LOOKS = 24
+ROBOT_NEAR_M = 1.1
 TOUCH_WEIGHT = 30.0
 """Outlasts the beams that pass above or below what was touched for half a minute."""
 BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
@@ -42,7 +43,7 @@ class Body:
         self.note, self.fraction = "", 0.0
         self.travelled_m, self.action_steps = 0.0, 0
         self._counted_m: Vec2 | None = None
-        self._forward_mps = self._yaw_rate_radps = 0.0
+        self._forward_mps = self._left_mps = self._yaw_rate_radps = 0.0
         self._tilt_rad = WALK_TILT_RAD
         self._seq = self._grips = 0
         self._pending: GripperCommand | None = None
@@ -113,8 +114,8 @@ class Body:
 
     # What is asked of it
 
-    def move(self, forward_mps: float, yaw_rate_radps: float) -> None:
-        self._forward_mps, self._yaw_rate_radps = forward_mps, yaw_rate_radps
+    def move(self, forward_mps: float, yaw_rate_radps: float, left_mps: float = 0.0) -> None:
+        self._forward_mps, self._left_mps, self._yaw_rate_radps = forward_mps, left_mps, yaw_rate_radps
 
     def stand(self) -> None:
         self.move(0.0, 0.0)
@@ -154,14 +155,17 @@ class Body:
             robot=self.id,
             seq=self._seq,
             forward_mps=0.0 if still else self._forward_mps,
-            left_mps=0.0,
+            left_mps=0.0 if still else self._left_mps,
             yaw_rate_radps=0.0 if still else self._yaw_rate_radps,
             camera_tilt_down_rad=self._tilt_rad,
         )
         node.publish("velocity", command, self.id)
 
     def touched(self) -> None:
-        """Something that the lidar does not see stands in front: remember it."""
+        """Something that the lidar does not see stands in front: remember it, unless it is another robot."""
+        x, y = self.position_m
+        if any(hypot(other[0] - x, other[1] - y) < ROBOT_NEAR_M for other in self.others_m):
+            return
         front: Iterable[Vec3] = ((BODY_FRONT_M + 0.07, side, 0.0) for side in (-0.15, 0.0, 0.15))
         here = (*self.position_m, 0.0)
         points = np.array([body_to_enu(point, here, self.yaw_rad)[:2] for point in front])

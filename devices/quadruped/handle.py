@@ -10,7 +10,7 @@ from devices.quadruped.map import Cell
 from devices.quadruped.moves import Skilled
 from devices.quadruped.reasons import code_of
 from devices.quadruped.robot import Robot
-from devices.quadruped.walk import BACK_OFF_MPS, Steps, await_odometry, walk
+from devices.quadruped.walk import Steps, await_odometry, walk
 from devices.worker import Outcome
 from wire.frames import distance_m
 from wire.messages.command import Command, ReasonCode, Target
@@ -20,7 +20,7 @@ from wire.model import Message, Vec2, Vec3
 KNIVES = ("Knife", "ButterKnife")
 GRIP_S = 10.0
 """Longer than any grasp takes."""
-STEP_BACK_S = 1.0
+STEP_BACK_S, STEP_BACK_MPS = 1.0, -0.3
 MOST_TRIES = 5
 MOST_SIDES = 2
 GATE_M, GATE_MOST_M = 0.6, 1.5
@@ -193,7 +193,7 @@ def _recover(body: Body, attempt: Attempt, code: ReasonCode) -> Steps:
         # The robot's own body may stand where the door swings.
         until_s = body.clock_s + STEP_BACK_S
         while body.clock_s < until_s:
-            body.move(BACK_OFF_MPS, 0.0)
+            body.move(STEP_BACK_MPS, 0.0)
             yield
         body.stand()
     attempt.tried_from_m.append(body.position_m)

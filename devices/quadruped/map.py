@@ -22,6 +22,8 @@ SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
 OTHER_ROBOT_M = 0.6
+TRUSTED_M = 3.4
+"""What is seen further off may be a robot of which the traffic has not told yet."""
 ON_WALL_END_M, WALL_FACE_M = 0.2, 0.03
 ON_WALL_M = 0.12
 """A door whose jambs are this near to a wall's line is a gap in it."""
@@ -98,7 +100,7 @@ class FloorMap:
         ray = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         origin = np.array(scan.position_enu_m[:2])
         self._pass(origin, ray, np.where(ranges > 0.0, ranges, scan.range_max_m) - SHORT_OF_HIT_M)
-        ends = (origin + ray * ranges[:, None])[ranges > 0.0]
+        ends = (origin + ray * ranges[:, None])[(ranges > 0.0) & (ranges < TRUSTED_M)]
         for other_m in others_m:
             ends = ends[np.hypot(ends[:, 0] - other_m[0], ends[:, 1] - other_m[1]) > OTHER_ROBOT_M]
         self.mark(ends, scan.stamp_s)

@@ -11,6 +11,7 @@ from devices.quadruped import path
 from devices.quadruped.body import Body
 from devices.quadruped.follow import ALIGNED_RAD, CRUISE_MPS, NEAR_MPS, Follower, turn_rate
 from devices.quadruped.map import Cell
+from devices.quadruped.spacing import edge_away, runs_into_other
 from wire.frames import bearing_rad, wrap_rad
 from wire.messages.command import ReasonCode
 from wire.model import Vec2
@@ -20,13 +21,16 @@ Goals = Callable[[], Mapping[Cell, float]]
 """Where to go and what each place costs extra, as the floor map is now."""
 
 MAX_PLANS = 10
+OFF_WAY, OTHER_IN_WAY = "off the way", "another robot is in the way"
+NOBODYS_FAULT = (OFF_WAY, OTHER_IN_WAY)
+"""What traffic brings with it; the goal's own timeout bounds how often."""
 CHECK_AHEAD_M, TIGHT_M = 2.5, 0.37
 OFF_WAY_M = 0.4
 LEAVING_M = 0.2
 STALL_S, STALL_M, STALL_RAD = 2.5, 0.05, 0.15
-BACK_OFF_S, BACK_OFF_MPS = 0.8, -0.3
-OTHER_STOP_M, OTHER_PATIENCE_S = 0.95, 4.0
+OTHER_PATIENCE_S = 4.0
 STALE_S = 5.0
+NO_WAY_TRIES = 3
 NO_WAY_WAIT_S, NEXT_SWEEP_S = 3.0, 0.25
 TOUCHING_S = 0.3
 
@@ -81,15 +85,18 @@ def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
     """Go to the cheapest of the goals."""
     yield from await_odometry(body)
     no_way = 0
-    for _ in range(MAX_PLANS):
+    tries = 0
+    while tries < MAX_PLANS:
+        yield from edge_away(body)
         legs = _plan(body, goals, body.others_m)
-        if legs is None and body.others_m and _plan(body, goals, ()) is not None:
+        if legs is None and body.others_m and (wanted := _plan(body, goals, ())) is not None:
             body.note = "waiting for another robot to clear the way"
+            body.path_m = tuple(wanted)  # whoever directs the traffic needs to know
             yield from wait(body, NO_WAY_WAIT_S)
             continue
         if legs is None:
             no_way += 1
-            if no_way > 2:
+            if no_way > NO_WAY_TRIES:
                 return Walked("unreachable", "there is no way to it that the robot fits through")
             body.floor.forget(body.now_s - STALE_S)
             yield from wait(body, 0.5 * NO_WAY_WAIT_S)
@@ -100,6 +107,7 @@ def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
         if not trouble:
             return Walked()
         body.note = f"{trouble}, looking for another way"
+        tries += trouble not in NOBODYS_FAULT
         yield from wait(body, NEXT_SWEEP_S)
     return Walked("blocked", f"gave up after {MAX_PLANS} tries: {body.note}")
 
@@ -128,18 +136,17 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
             if not _is_free(body, follower.left_m):
                 return "the way is blocked"
         if follower.off_way_m(body.position_m) > OFF_WAY_M:
-            return "off the way"
+            return OFF_WAY
         if forward > 0.0 and body.room_ahead_m() < 0.05:
             forward = 0.0
-        if watch.waits_for_other(body, forward > 0.0 and _other_ahead(body)):
+        if watch.waits_for_other(body, forward > 0.0 and runs_into_other(body)):
             forward = 0.0
             if watch.patience_over(body):
-                return "another robot is in the way"
+                return OTHER_IN_WAY
         body.move(forward, yaw_rate)
         yield
         trouble = watch.trouble(body)
         if trouble:
-            yield from _back_off(body)
             return trouble
 
 
@@ -169,25 +176,6 @@ def _is_free(body: Body, corners_m: tuple[Vec2, ...]) -> bool:
         if ahead_m <= 0.0:
             break
     return True
-
-
-def _other_ahead(body: Body) -> bool:
-    """Another robot is near, and in front."""
-    for other_m in body.others_m:
-        off = abs(wrap_rad(bearing_rad(body.position_m, other_m) - body.yaw_rad))
-        gap = hypot(other_m[0] - body.position_m[0], other_m[1] - body.position_m[1])
-        if gap < OTHER_STOP_M and off < 0.9:
-            return True
-    return False
-
-
-def _back_off(body: Body) -> Steps:
-    """A little backwards, away from what stopped the robot."""
-    until_s = body.clock_s + BACK_OFF_S
-    while body.clock_s < until_s:
-        body.move(BACK_OFF_MPS, 0.0)
-        yield
-    body.stand()
 
 
 class _Watch:

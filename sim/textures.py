@@ -5,11 +5,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-PLAIN, WOOD, TILE, CARPET, FABRIC, BRICK, MARBLE, METAL, SCREEN, PAGES, LEAVES, PLASTER = range(12)
+LAYERS = 13
+PLAIN, WOOD, TILE, CARPET, FABRIC, BRICK, MARBLE, METAL, SCREEN, PAGES, LEAVES, PLASTER, BOARD = range(LAYERS)
+"""WOOD on a floor is planks; on a thing it is drawn as BOARD, whose grain follows the longer side of a face."""
 
 SIDE_PX = 128
 
-REPEAT_M = (1.0, 1.2, 1.2, 0.6, 0.25, 0.9, 1.5, 0.4, 0.0, 0.25, 0.5, 2.0)
+REPEAT_M = (1.0, 1.2, 1.2, 0.6, 0.25, 0.9, 1.5, 0.4, 0.0, 0.25, 0.5, 2.0, 1.2)
 """Metres of surface that one repeat covers, by layer; 0 stretches the picture once over each face."""
 
 Image = NDArray[np.float64]
@@ -30,9 +32,10 @@ def layers() -> NDArray[np.uint8]:
         METAL: 0.94 + 0.022 * _noise(rng, 24.0, 0.6),
         PAGES: _pages(rng),
         LEAVES: 0.75 + 0.25 * np.tanh(2.0 * _noise(rng, 3.0, 3.0)),
+        BOARD: 0.90 + 0.04 * _noise(rng, 28.0, 0.8) + 0.025 * _noise(rng, 30.0, 4.0),
         PLASTER: 0.96 + 0.03 * _noise(rng, 10.0, 10.0) + 0.01 * _noise(rng, 1.0, 1.0),
     }
-    stack = np.empty((12, SIDE_PX, SIDE_PX, 3))
+    stack = np.empty((LAYERS, SIDE_PX, SIDE_PX, 3))
     for layer, image in grey.items():
         stack[layer] = image[..., None]
     stack[SCREEN] = _screen()
@@ -89,9 +92,10 @@ def _brick(rng: np.random.Generator) -> Image:
 
 def _marble(rng: np.random.Generator) -> Image:
     rows, columns = _grid()
-    phase = 2.0 * np.pi * (rows + columns) / SIDE_PX + 1.6 * _noise(rng, 9.0, 9.0)
-    vein = np.exp(-8.0 * np.abs(np.sin(phase)))
-    return 0.97 + 0.02 * _noise(rng, 12.0, 12.0) - 0.25 * vein
+    phase = 2.0 * np.pi * (rows + columns) / SIDE_PX + 0.5 * _noise(rng, 16.0, 16.0) + 0.15 * _noise(rng, 4.0, 4.0)
+    vein = np.exp(-9.0 * np.abs(np.sin(phase))) * (0.6 + 0.3 * _noise(rng, 10.0, 10.0))
+    slab = (rows % 64 < 1) | (columns % 64 < 1)
+    return np.where(slab, 0.75, 0.96 + 0.015 * _noise(rng, 12.0, 12.0) - 0.20 * vein)
 
 
 def _pages(rng: np.random.Generator) -> Image:

@@ -13,6 +13,7 @@ from sim.render.picture import ROBOT_ID
 from sim.render.robot import robot_parts
 from sim.render.rows import EVERYWHERE, ROW, Rows
 from sim.scene import Body, Part, Scene, Vec3
+from sim.textures import BOARD, WOOD
 
 PartsOf = Callable[[Body], Sequence[Part]]
 
@@ -103,7 +104,8 @@ def part_rows(parts: Sequence[Part], size_m: Vec3) -> Rows:
         row["shape"] = SHAPE_CODE[part.shape]
         row["centre"] = part.centre_m
         row["axes"] = _axes(part.yaw_rad, part.pitch_rad) * np.array(part.size_m)[:, None]
-        row["rgb"], row["surface"], row["emission"] = part.rgb, part.texture, part.emission
+        row["rgb"], row["emission"] = part.rgb, part.emission
+        row["surface"] = BOARD if part.texture == WOOD else part.texture
     # Larger than the footprint by what is soft of it, and above the floor by less than anything's height.
     depth_m, width_m = (side_m * 1.12 + min(0.10, 0.25 * side_m) for side_m in size_m[:2])
     rows[-1]["axes"] = np.diag((depth_m, width_m, 0.008))

@@ -5,6 +5,7 @@ Things are lit at their corners, which is cheap; the large faces of the building
 
 from sim.render.lamps import PLACES
 from sim.render.view import BUILDING, BUILDING_PICTURED, SOFT_SHADOW, THING, THING_PICTURED
+from sim.textures import BOARD, LAYERS
 
 _LIGHT = """
 uniform float ceiling_m;
@@ -29,7 +30,7 @@ vec3 light(vec3 at, vec3 n, vec4 lamp, vec4 extent) {
 
 _VERTEX = f"""
 uniform mat4 clip_from_site;
-uniform float repeat_m[12];          // 0: one picture over the whole face
+uniform float repeat_m[{LAYERS}];          // 0: one picture over the whole face
 uniform vec4 lamps[{PLACES}];        // position and warmth, by room; the last one for no room
 uniform vec4 extents[{PLACES}];      // x and y of the room's bounding box
 in vec3 position; in vec3 normal; in vec2 uv; in vec3 along_u; in vec3 along_v;
@@ -48,11 +49,13 @@ void main() {{
     vec3 size = sqrt(squared);
     float repeat = repeat_m[int(surface)];
     bool on_plan = along_u == vec3(0.0);
-    vec2 metres = on_plan ? at.xy : uv * vec2(dot(along_u, size), dot(along_v, size));
+    vec2 span = vec2(dot(along_u, size), dot(along_v, size));
+    vec2 metres = on_plan ? at.xy : uv * span;
 #ifdef STRETCHED
     repeat = 0.0;
 #endif
     picture = repeat == 0.0 ? uv : metres / repeat;
+    if (surface == float({BOARD}) && span.y > span.x) picture = picture.yx;
     layer = surface;
     pixel_owner = owner + 1;         // 0 is what a cleared picture holds: nothing
     int place = room < 0.0 ? {PLACES - 1} : int(room);

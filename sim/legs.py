@@ -3,6 +3,10 @@
 A crude gait on purpose: it shows legs, feet on the floor and what they cost, not how a quadruped balances.
 """
 
+import ctypes
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import atan2, cos, pi, sin
 from typing import Any
 
@@ -73,15 +77,30 @@ class LeggedRover(Rover):
 
 
 def legged_rover(bullet: Any, robot: str, start_m: Vec2, yaw_rad: float, group: int, mask: int) -> LeggedRover:
-    body: int = bullet.loadURDF(
-        f"{pybullet_data.getDataPath()}/a1/a1.urdf",
-        (*start_m, STAND_HEIGHT_M),
-        bullet.getQuaternionFromEuler((0.0, 0.0, yaw_rad)),
-        flags=bullet.URDF_MERGE_FIXED_LINKS,
-    )
+    with _chatter_to_stderr():
+        body: int = bullet.loadURDF(
+            f"{pybullet_data.getDataPath()}/a1/a1.urdf",
+            (*start_m, STAND_HEIGHT_M),
+            bullet.getQuaternionFromEuler((0.0, 0.0, yaw_rad)),
+            flags=bullet.URDF_MERGE_FIXED_LINKS,
+        )
     for joint in JOINTS:
         bullet.resetJointState(body, joint, STAND_RAD[joint % 3])
     for link in (-1, *JOINTS):
         bullet.setCollisionFilterGroupMask(body, link, group, mask)
         bullet.changeDynamics(body, link, lateralFriction=FOOT_FRICTION, linearDamping=0.0, angularDamping=0.0)
     return LeggedRover(bullet, robot, body)
+
+
+@contextmanager
+def _chatter_to_stderr() -> Iterator[None]:
+    """PyBullet's loader prints from C to the standard output, which belongs to reports."""
+    libc = ctypes.CDLL(None)
+    kept = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        yield
+    finally:
+        libc.fflush(None)
+        os.dup2(kept, 1)
+        os.close(kept)

@@ -1,6 +1,7 @@
 """Fixed cameras in corners and on walls, chosen so that together they watch about half of the free floor."""
 
-from math import atan2, pi
+from dataclasses import replace
+from math import atan2, inf, pi
 from random import Random
 
 import numpy as np
@@ -33,23 +34,26 @@ def place_cameras(scene: Scene, rng: Random) -> tuple[CctvPose, ...] | None:
     poses = [pose for room in scene.rooms for pose in _candidates(room, rng)]
     seen = [watched(pose, floor, solids) for pose in poses]
     useful = [k for k, mask in enumerate(seen) if mask.mean() > 0.04]
-    best: tuple[float, list[int]] | None = None
-    for _ in range(DRAWS):
-        chosen = rng.sample(useful, min(len(useful), rng.randint(*CAMERAS)))
+    wanted = min(CAMERAS[1], max(CAMERAS[0], len(scene.rooms) - rng.randint(0, 1)))
+    for count in sorted(range(CAMERAS[0], CAMERAS[1] + 1), key=lambda n: abs(n - wanted)):
+        chosen = _choose(poses, seen, useful, count, rng)
+        if chosen:
+            return tuple(replace(poses[k], id=f"cam-{number}") for number, k in enumerate(sorted(chosen), start=1))
+    return None
+
+
+def _choose(poses: list[CctvPose], seen: list[Mask], useful: list[int], count: int, rng: Random) -> list[int]:
+    """Of many sets drawn, the one that watches the right share with the least waste; empty when there is none."""
+    best: tuple[float, list[int]] = (inf, [])
+    for _ in range(DRAWS if len(useful) >= count else 0):
+        chosen = rng.sample(useful, count)
         share = float(np.logical_or.reduce([seen[k] for k in chosen]).mean())
-        if len(chosen) >= CAMERAS[0] and AIM[0] <= share <= AIM[1]:
-            # Cameras in different rooms are worth more than two looking at the same floor.
-            waste = (
-                sum(float(seen[k].mean()) for k in chosen)
-                - share
-                + 0.2 * (len(chosen) - len({poses[k].room for k in chosen}))
-            )
-            if best is None or waste < best[0]:
-                best = (waste, chosen)
-    if best is None:
-        return None
-    ordered = sorted(best[1])
-    return tuple(_numbered(poses[k], number) for number, k in enumerate(ordered, start=1))
+        # Cameras in different rooms are worth more than two looking at the same floor.
+        same_room = count - len({poses[k].room for k in chosen})
+        waste = sum(float(seen[k].mean()) for k in chosen) - share + 0.2 * same_room
+        if AIM[0] <= share <= AIM[1] and waste < best[0]:
+            best = (waste, chosen)
+    return best[1]
 
 
 def coverage(scene: Scene) -> float:
@@ -142,16 +146,3 @@ def _candidates(room: Room, rng: Random) -> list[CctvPose]:
             )
         )
     return poses
-
-
-def _numbered(pose: CctvPose, number: int) -> CctvPose:
-    return CctvPose(
-        f"cam-{number}",
-        pose.room,
-        pose.position_m,
-        pose.yaw_rad,
-        pose.tilt_down_rad,
-        pose.width_px,
-        pose.height_px,
-        pose.focal_px,
-    )

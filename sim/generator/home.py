@@ -8,8 +8,9 @@ from sim.generator.cctv import place_cameras
 from sim.generator.clutter import Clutter
 from sim.generator.furniture import dining_room, furnish
 from sim.generator.placing import RoomPlacing
-from sim.generator.plan import FloorPlan, PlannedRoom, draw_plan
+from sim.generator.plan import FloorPlan, PlannedRoom, draw_house, draw_plan
 from sim.generator.starts import draw_starts
+from sim.generator.statistics import House
 from sim.generator.walls import draw_walls
 from sim.scene import Body, Rgb, Room, Scene
 from sim.textures import CARPET, MARBLE, TILE, WOOD
@@ -42,15 +43,16 @@ PAINTS: tuple[Rgb, ...] = (
 
 def make_home(seed: int) -> Scene:
     """The home of a seed: always the same one."""
+    house = draw_house(Random(f"house {seed}"))
     for attempt in count():
-        scene = _draw_home(seed, Random(f"home {seed} {attempt}"))
+        scene = _draw_home(seed, house, Random(f"home {seed} {attempt}"))
         if scene is not None:
             return scene
     raise AssertionError("unreachable")
 
 
-def _draw_home(seed: int, rng: Random) -> Scene | None:
-    plan = draw_plan(rng)
+def _draw_home(seed: int, house: House, rng: Random) -> Scene | None:
+    plan = draw_plan(house, rng)
     bodies = _furnished(plan, rng)
     if bodies is None or len(bodies) < LEAST_BODIES:
         return None

@@ -17,6 +17,7 @@ from sim.generator.statistics import (
     ROOM_NAME,
     ROOM_SHARE,
     SINGLE_DOOR_M,
+    House,
 )
 from sim.scene import Door, Vec2
 from wire.catalogue import RoomKind
@@ -65,10 +66,15 @@ class FloorPlan:
     doors: tuple[Door, ...]
 
 
-def draw_plan(rng: Random) -> FloorPlan:
+def draw_house(rng: Random) -> House:
+    """Which rooms a home has, and how much floor."""
+    return rng.choices(HOUSES, [weight for weight, _, _ in HOUSES])[0]
+
+
+def draw_plan(house: House, rng: Random) -> FloorPlan:
     """Draw until rooms are roomy and every one has a door."""
     while True:
-        rooms = _draw_rooms(rng)
+        rooms = _draw_rooms(house, rng)
         edges = tuple(e for pair in combinations(range(len(rooms)), 2) if (e := _shared(rooms, pair)) is not None)
         chosen = _choose_edges(rooms, edges, rng)
         if chosen is not None:
@@ -76,9 +82,9 @@ def draw_plan(rng: Random) -> FloorPlan:
             return FloorPlan(rooms, edges, doors)
 
 
-def _draw_rooms(rng: Random) -> tuple[PlannedRoom, ...]:
+def _draw_rooms(house: House, rng: Random) -> tuple[PlannedRoom, ...]:
+    _, kinds, (least, most) = house
     while True:
-        _, kinds, (least, most) = rng.choices(HOUSES, [house[0] for house in HOUSES])[0]
         floor_m2, aspect = rng.uniform(least, most), rng.uniform(1.0, 1.5)
         whole = Area(0.0, 0.0, _round(sqrt(floor_m2 * aspect)), _round(sqrt(floor_m2 / aspect)))
         rest = list(kinds[2:])

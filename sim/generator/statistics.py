@@ -11,7 +11,8 @@ L: RoomKind = "LivingRoom"
 B: RoomKind = "Bedroom"
 W: RoomKind = "Bathroom"
 
-HOUSES: tuple[tuple[float, tuple[RoomKind, ...], tuple[float, float]], ...] = (
+House = tuple[float, tuple[RoomKind, ...], tuple[float, float]]
+HOUSES: tuple[House, ...] = (
     (3.0, (K, L, B, W), (84.0, 104.0)),
     (3.0, (K, L, B, B, W), (86.0, 116.0)),
     (2.0, (K, L, B, B, W, W), (92.0, 128.0)),

@@ -1,0 +1,42 @@
+"""`python -m sim.generator --seed N --out FILE`: the site file of a generated home."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from sim.generator.home import make_home
+from sim.generator.site_file import Options, write_site
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m sim.generator", description=__doc__)
+    parser.add_argument("--seed", type=int, default=0, help="which home (0 or more)")
+    parser.add_argument("--out", type=Path, default=None, help="file to write; standard output when left out")
+    parser.add_argument("--name", default=None, help="the site's name; home-N when left out")
+    parser.add_argument("--robots", type=int, default=3)
+    parser.add_argument("--spread", action="store_true", help="robots begin all over the home, not side by side")
+    parser.add_argument("--no-cctv", dest="cctv", action="store_false", help="leave the fixed cameras out")
+    parser.add_argument("--clock", choices=("lockstep", "wall"), default="lockstep")
+    parser.add_argument("--planner", default="scripted")
+    parser.add_argument("--port", type=int, default=7447, help="of the router")
+    parser.add_argument("--view-port", type=int, default=9876, help="where live viewers connect")
+    parser.add_argument("--save", default="", help="file that the view records to")
+    parser.add_argument("--smart-appliances", action="store_true", help="appliances report their own state")
+    arguments = vars(parser.parse_args(argv))
+    seed, out = arguments.pop("seed"), arguments.pop("out")
+    if seed < 0:
+        parser.error(f"--seed {seed}: give 0 or more")
+    try:
+        text = write_site(make_home(seed), Options(**arguments))
+    except ValueError as error:
+        parser.error(str(error))
+    if out is None:
+        sys.stdout.write(text)
+    else:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,113 @@
+"""The site file of a generated home: what its owner would know. Floor plan and cameras, and no object at all."""
+
+from dataclasses import dataclass
+from math import degrees
+
+from sim.scene import CctvPose, Door, Room, Scene, Wall
+
+Value = str | int | float | bool | tuple["Value", ...]
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a site file says besides the building. Ports: of the router, of the view."""
+
+    name: str | None = None
+    robots: int = 3
+    spread: bool = False
+    """Robots begin all over the home rather than side by side."""
+    cctv: bool = True
+    clock: str = "lockstep"
+    planner: str = "scripted"
+    port: int = 7447
+    view_port: int = 9876
+    save: str = ""
+    smart_appliances: bool = False
+
+
+def write_site(scene: Scene, options: Options | None = None) -> str:
+    """TOML that `wire.site.load_site` takes."""
+    options = options or Options()
+    cameras = scene.cameras if options.cctv else ()
+    most = len(scene.robot_starts)
+    if not 1 <= options.robots <= most:
+        raise ValueError(f"{options.robots} robots asked for: this home has starts for 1 to {most}")
+    starts = scene.robot_starts[-options.robots :] if options.spread else scene.robot_starts[: options.robots]
+    tables = [
+        _table("", {"name": options.name or f"home-{scene.seed}"}),
+        _table("[router]", {"endpoint": f"tcp/127.0.0.1:{options.port}"}),
+        _table("[clock]", {"mode": options.clock}),
+        _table("[planner]", {"name": options.planner}),
+        _table("[view]", {"grpc_port": options.view_port, "save": options.save}),
+        _table("[sim]", {"seed": scene.seed, "smart_appliances": options.smart_appliances}),
+        *(_room(room) for room in scene.rooms),
+        *(_wall(wall) for wall in scene.walls),
+        *(_door(door) for door in scene.doors),
+        *(_camera(pose) for pose in cameras),
+        *(
+            _table("[[robot]]", {"id": f"dog-{k}", "kind": "quadruped", "start_m": at, "start_yaw_deg": _deg(yaw)})
+            for k, (at, yaw) in enumerate(starts, start=1)
+        ),
+        *(_table("[[process]]", row) for row in _processes(len(cameras), options.robots)),
+    ]
+    return "\n".join(tables)
+
+
+def _processes(cameras: int, robots: int) -> list[dict[str, Value]]:
+    rows = [
+        ("router", "router", "wire.router"),
+        ("sim", "sim", "sim"),
+        ("hub", "hub", "hub"),
+        ("planner", "planner", "planners"),
+        ("view", "view", "hub.view"),
+        *((f"cctv-{k}", "cctv", "devices.cctv") for k in range(1, cameras + 1)),
+        *((f"dog-{k}", "robot", "devices.quadruped") for k in range(1, robots + 1)),
+    ]
+    return [{"id": id, "role": role, "module": module} for id, role, module in rows]
+
+
+def _room(room: Room) -> str:
+    return _table("[[room]]", {"id": room.id, "name": room.name, "kind": room.kind, "polygon_m": tuple(room.polygon_m)})
+
+
+def _wall(wall: Wall) -> str:
+    return _table("[[wall]]", {"start_m": wall.start_m, "end_m": wall.end_m, "thickness_m": wall.thickness_m})
+
+
+def _door(door: Door) -> str:
+    return _table("[[door]]", {"id": door.id, "rooms": door.rooms, "start_m": door.start_m, "end_m": door.end_m})
+
+
+def _camera(pose: CctvPose) -> str:
+    return _table(
+        "[[camera]]",
+        {
+            "id": pose.id,
+            "room": pose.room,
+            "position_enu_m": pose.position_m,
+            "yaw_deg": _deg(pose.yaw_rad),
+            "tilt_down_deg": _deg(pose.tilt_down_rad),
+            "width_px": pose.width_px,
+            "height_px": pose.height_px,
+            "focal_px": pose.focal_px,
+        },
+    )
+
+
+def _deg(angle_rad: float) -> float:
+    return round(degrees(angle_rad), 4)
+
+
+def _table(head: str, row: dict[str, Value]) -> str:
+    lines = [head] if head else []
+    return "\n".join([*lines, *(f"{key} = {_text(value)}" for key, value in row.items())]) + "\n"
+
+
+def _text(value: Value) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, tuple):
+        return "[" + ", ".join(_text(v) for v in value) + "]"
+    return repr(value)

@@ -47,6 +47,12 @@ class Track:
         return layout.detector_types()[int(self.votes.argmax())]
 
     @property
+    def type_probabilities(self) -> Floats:
+        weights = np.exp(self.votes - self.votes.max())
+        result: Floats = weights / weights.sum()
+        return result
+
+    @property
     def confirmed(self) -> bool:
         return self.sightings >= CONFIRM_SIGHTINGS
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import log, sqrt
 
 import numpy as np
 
@@ -112,12 +113,16 @@ class Tracker:
 
 def associate(tracks: Sequence[Track], sightings: Sequence[Sighting]) -> dict[int, int]:
     """Sighting number -> track number, nearest pairs first, each used once."""
+    if not tracks or not sightings:
+        return {}
+    seen_m = np.array([s.position_enu_m[:2] for s in sightings])
+    known_m = np.array([t.position[:2] for t in tracks])
+    near = ((seen_m[:, None] - known_m[None]) ** 2).sum(axis=2) <= MAX_GATE_M**2
     pairs = []
-    for i, sighting in enumerate(sightings):
-        for j, track in enumerate(tracks):
-            cost = pair_cost(track, sighting)
-            if cost is not None:
-                pairs.append((cost, i, j))
+    for i, j in np.argwhere(near).tolist():
+        cost = pair_cost(tracks[j], sightings[i])
+        if cost is not None:
+            pairs.append((cost, i, j))
     matched: dict[int, int] = {}
     used: set[int] = set()
     for _, i, j in sorted(pairs):
@@ -129,12 +134,10 @@ def associate(tracks: Sequence[Track], sightings: Sequence[Sighting]) -> dict[in
 
 def pair_cost(track: Track, sighting: Sighting) -> float | None:
     """How badly a sighting fits a track: distance in gates plus disagreement on the type; None when it cannot be."""
-    dx, dy, dz = np.array(sighting.position_enu_m) - track.position
+    dx, dy, dz = (a - b for a, b in zip(sighting.position_enu_m, track.position_enu_m, strict=True))
     xx, xy, yy, zz = (a + b for a, b in zip(sighting.covariance_m2, track.covariance_m2, strict=True))
     floor = GATE_FLOOR_M**2
     xx, yy, zz = xx + floor, yy + floor, zz + floor
-    if dx * dx + dy * dy > MAX_GATE_M**2:
-        return None
     determinant = xx * yy - xy * xy
     distance2 = (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / determinant + dz * dz / zz
     if distance2 > GATE_SIGMAS**2:
@@ -142,14 +145,12 @@ def pair_cost(track: Track, sighting: Sighting) -> float | None:
     agreement = type_agreement(track, sighting)
     if agreement < MIN_TYPE_AGREEMENT:
         return None
-    return float(np.sqrt(distance2) - TYPE_WEIGHT * agreement)
+    return sqrt(distance2) - TYPE_WEIGHT * agreement
 
 
 def type_agreement(track: Track, sighting: Sighting) -> float:
     """Log of the probability that track and sighting are of one type, were their opinions independent."""
-    shifted = track.votes - track.votes.max()
-    weights = np.exp(shifted) / np.exp(shifted).sum()
-    return float(np.log(max(1e-9, float(weights @ np.exp(sighting.detection.log_probs)))))
+    return log(max(1e-9, float(track.type_probabilities @ np.exp(sighting.detection.log_probs))))
 
 
 def _absence(track: Track) -> Absence:

@@ -1,0 +1,95 @@
+"""Make training pictures: `python -m sim.training.frames --homes 1000-1099 --out DIR`. One shard for each home."""
+
+import argparse
+import logging
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from devices.vision.lens import Depth, Lens
+from devices.vision.picture import encode_jpeg
+from sim.generator import make_home
+from sim.models import parts
+from sim.render import Camera, make_renderer
+from sim.render.picture import ROBOT_ID
+from sim.training.labels import LABEL, Labels, label_picture
+from sim.training.poses import cctv_lens, mast_lens
+from sim.training.scenery import Scenery
+from sim.training.shards import Shard, write_shard
+
+log = logging.getLogger("frames")
+HELD_OUT = 9000
+"""Homes from this seed on are never trained on."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture as a device gets it, and what is true of it."""
+
+    jpeg: bytes
+    depth_m: Depth
+    lens: Lens
+    labels: Labels
+
+
+def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
+    """Pictures of one home from both kinds of camera, the home in new disorder for every other one."""
+    rng = np.random.default_rng(seed)
+    scene = make_home(seed)
+    renderer = make_renderer(scene, "auto", parts)
+    scenery = Scenery(scene, renderer, rng)
+    taken = 0
+    for number in range(cctv + mast):
+        if number % 2 == 0:
+            scenery.shuffle()
+        lens = cctv_lens(scene, rng) if number < cctv else mast_lens(scene, rng)
+        if lens is None:
+            continue
+        picture = renderer.render(camera_of(lens), with_ids=True, with_depth=True)
+        assert picture.ids is not None
+        assert picture.depth_m is not None
+        labels = label_picture(picture.ids, picture.depth_m, lens, scenery.things(ROBOT_ID), taken)
+        yield Shot(encode_jpeg(picture.rgb, int(rng.integers(70, 96))), picture.depth_m, lens, labels)
+        taken += 1
+    renderer.close()
+
+
+def render_home(seed: int, cctv: int, mast: int) -> Shard:
+    """All of a home's pictures, to be kept."""
+    shots = list(shoot_home(seed, cctv, mast))
+    labels = np.concatenate([np.zeros(0, dtype=LABEL), *(shot.labels for shot in shots)])
+    return Shard([shot.jpeg for shot in shots], [shot.lens for shot in shots], labels)
+
+
+def camera_of(lens: Lens) -> Camera:
+    return Camera(lens.position_enu_m, lens.yaw_rad, lens.tilt_down_rad, lens.width_px, lens.height_px, lens.focal_px)
+
+
+def span(text: str) -> range:
+    """`1000-1099` or `1000` as a range of seeds."""
+    first, _, last = text.partition("-")
+    return range(int(first), int(last or first) + 1)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--homes", type=span, required=True, help=f"seeds, below {HELD_OUT}")
+    parser.add_argument("--cctv", type=int, default=24, help="pictures of fixed cameras in each home")
+    parser.add_argument("--mast", type=int, default=20, help="pictures of a robot's camera in each home")
+    parser.add_argument("--out", type=Path, required=True)
+    arguments = parser.parse_args()
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    if arguments.homes.stop > HELD_OUT:
+        parser.error(f"homes from seed {HELD_OUT} on are held out for measuring; choose lower seeds")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for seed in arguments.homes:
+        path = arguments.out / f"home-{seed}.npz"
+        if not path.exists():
+            write_shard(path, render_home(seed, arguments.cctv, arguments.mast))
+            log.info("%s", path)
+
+
+if __name__ == "__main__":
+    main()

@@ -13,6 +13,8 @@ from wire.bus import Presence, Received
 from wire.codec import encode
 from wire.letter import NO_TICK, write_stamp
 from wire.link import Link, MeshError, client_config, link_for
+from wire.messages.driver import VelocityCommand
+from wire.messages.observation import EventLog
 from wire.messages.truth import JudgeReply, JudgeRequest
 from wire.node import ZenohNode, node_for
 
@@ -91,3 +93,33 @@ def test_passwords_are_for_their_owner_only(tmp_path: Path, monkeypatch: pytest.
         (tmp_path / "credentials" / "console").chmod(0o644)
         with pytest.raises(MeshError, match="chmod 600"):
             link_for(mesh.site, "console-7")
+
+
+def attack(mesh: WalkMesh, user: str) -> None:
+    """Speak for others, ask what only the hub may ask, all with one robot's password."""
+    velocity = VelocityCommand(robot="dog-7", seq=0, forward_mps=1.0, left_mps=0.0, yaw_rate_radps=0.0)
+    line = EventLog(source="dog-7", seq=0, stamp_s=0.0, text="forged")
+    stamp = write_stamp(NO_TICK, 1, "dog-7")
+    with zenoh.open(zenoh.Config.from_json5(json.dumps(client_config(link_for(mesh.site, user))))) as session:
+        session.put("r2x/robot/dog-7/velocity", encode(velocity), attachment=stamp)
+        session.put("r2x/event/dog-7", encode(line), attachment=stamp)
+        for _ in session.get("r2x/device/dog-1/card", timeout=2.0, payload=b"\x80", attachment=stamp):
+            pass
+        # what this robot may say arrives after what it may not: then the rest has had its time
+        session.put(f"r2x/event/{user}", encode(line.model_copy(update={"text": "my own"})), attachment=stamp)
+        mesh.wait(lambda: any(f"event/{user}" in entry and "my own" in entry for entry in mesh.diary("hub")))
+
+
+@pytest.mark.parametrize("secured", [True, False])
+def test_one_robot_cannot_speak_for_another(secured: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with truthful_mesh(tmp_path, monkeypatch, secured) as mesh:
+        mesh.run_core("hub")
+        mesh.wait(lambda: any("event/dog-1" in entry for entry in mesh.diary("hub")))
+        cards_before = sum("? card/dog-1" in entry for entry in mesh.diary("dog-1"))
+        attack(mesh, "dog-2")
+        came_through = [
+            any("velocity/dog-7" in entry for entry in mesh.diary("sim")),
+            any("event/dog-7" in entry for entry in mesh.diary("hub")),
+            sum("? card/dog-1" in entry for entry in mesh.diary("dog-1")) > cards_before,
+        ]
+        assert came_through == [not secured] * 3

@@ -48,7 +48,7 @@ class BulletRenderer:
             _columns(FLIP @ view_matrix(camera)),
             _columns(_projection(camera)),
             lightDirection=(2.0, -3.0, 8.0),
-            lightAmbientCoeff=0.78,
+            lightAmbientCoeff=0.68,
             lightDiffuseCoeff=0.38,
             lightSpecularCoeff=0.0,
             shadow=0,

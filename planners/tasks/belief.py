@@ -1,0 +1,103 @@
+"""The believed world, indexed for planning: what is in what, what is closed, which belief may be trusted."""
+
+from collections.abc import Iterator
+
+from planners.tasks.bans import Bans
+from planners.tasks.failures import Failures
+from planners.tasks.memory import Notes
+from planners.tasks.travel import Travel
+from wire.catalogue import catalogue
+from wire.goals import object_satisfies, select
+from wire.messages.goal import Goal, Selector
+from wire.messages.world import AreaState, ObjectState, RobotState, WorldState
+from wire.model import Vec2
+
+SURE = 0.9
+ABLE = frozenset({"idle", "executing", "canceling", "holding"})
+"""States in which a robot can be counted on."""
+_PROP = {
+    "open": "isOpen",
+    "closed": "isOpen",
+    "on": "isToggled",
+    "off": "isToggled",
+    "clean": "isDirty",
+    "sliced": "isSliced",
+}
+
+
+class Belief:
+    """W_t with everything that planning asks of it."""
+
+    def __init__(self, world: WorldState, travel: Travel, bans: Bans, failures: Failures, notes: Notes) -> None:
+        self.world, self.travel, self.bans, self.failures, self.notes = world, travel, bans, failures, notes
+        self.objects = {obj.id: obj for obj in world.objects}
+        self.areas: dict[str, AreaState] = {area.id: area for area in world.areas}
+        self.robots: list[RobotState] = sorted((r for r in world.robots if r.status in ABLE), key=lambda r: r.id)
+        self._robot_ids = {r.id for r in world.robots}
+        self._crowd: dict[str, int] = {}
+        for obj in world.objects:
+            if obj.receptacle is not None:
+                self._crowd[obj.receptacle] = self._crowd.get(obj.receptacle, 0) + 1
+
+    def matching(self, selector: Selector) -> list[ObjectState]:
+        """Things that a selector means, in the order of their ids."""
+        return sorted(select(selector, self.world), key=lambda o: o.id)
+
+    def satisfies(self, goal: Goal, obj: ObjectState) -> bool:
+        return object_satisfies(goal, obj, self.world)
+
+    def trusted(self, goal: Goal, obj: ObjectState) -> bool:
+        """Whether it is safe to leave a thing alone because a goal is believed to hold of it already.
+
+        A property counts as known when it is believed with at least 0.9, when a robot was the one who saw or set it,
+        or when a robot has been sent to look in this task; a place likewise, or when a robot verified the thing. What
+        only a camera says with less is looked at first: nothing would be done about it if it were wrong.
+        """
+        if (obj.id, goal.predicate) in self.notes.inspected:
+            return True
+        name = _PROP.get(goal.predicate)
+        if name is None:
+            return obj.verified or obj.confidence >= SURE or goal.predicate in ("found", "visited")
+        fact = obj.props.get(name)
+        return fact is not None and (fact.confidence >= SURE or fact.source in self._robot_ids)
+
+    def held_by(self, obj: ObjectState) -> RobotState | None:
+        """The robot that has it in hand."""
+        return next((r for r in self.world.robots if r.id == obj.receptacle or r.inventory == obj.id), None)
+
+    def point_m(self, obj: ObjectState) -> Vec2:
+        return (obj.position_enu_m[0], obj.position_enu_m[1])
+
+    def crowd(self, holder: str) -> int:
+        """How many things are in or on it."""
+        return self._crowd.get(holder, 0)
+
+    def is_open(self, obj: ObjectState) -> bool:
+        fact = obj.props.get("isOpen")
+        return fact is not None and fact.value
+
+    def is_on(self, obj: ObjectState) -> bool:
+        fact = obj.props.get("isToggled")
+        return fact is not None and fact.value
+
+    def shut(self, obj: ObjectState) -> bool:
+        """It must be opened before a hand gets in."""
+        return catalogue()[obj.type].must_open and not self.is_open(obj)
+
+    def around(self, obj: ObjectState) -> Iterator[ObjectState]:
+        """What it is in or on, from the inside out."""
+        seen = {obj.id}
+        holder = self.objects.get(obj.receptacle or "")
+        while holder is not None and holder.id not in seen:
+            yield holder
+            seen.add(holder.id)
+            holder = self.objects.get(holder.receptacle or "")
+
+    def closures(self, obj: ObjectState) -> list[ObjectState]:
+        """Receptacles that must be open to get at it, the outermost first."""
+        return [holder for holder in self.around(obj) if catalogue()[holder.type].must_open][::-1]
+
+    def nearest_m(self, point_m: Vec2) -> float:
+        """Metres from the nearest robot."""
+        starts = ((r.position_enu_m[0], r.position_enu_m[1]) for r in self.robots)
+        return min((self.travel.metres(start, point_m) for start in starts), default=0.0)

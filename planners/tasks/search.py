@@ -1,0 +1,126 @@
+"""Looking for what is unknown: rooms first, then inside of closed things, then the rooms once more, then giving up."""
+
+from dataclasses import dataclass
+
+from planners.tasks.belief import Belief
+from planners.tasks.priors import inside_prior, normalised
+from planners.tasks.travel import centre_m
+from planners.tasks.work import Impossible, Job, Step, on
+from wire.catalogue import catalogue
+from wire.messages.world import AreaState, ObjectState
+from wire.model import Vec2
+from wire.site import Site
+
+EVERY_INSIDE = 0.05
+"""To find every thing of a type, closed receptacles are opened where it is at least this probable."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Something looked for. `every`: all there are, so every room is gone through, whatever is found on the way."""
+
+    types: tuple[str, ...]
+    goal: int
+    rooms: frozenset[str] | None = None
+    every: bool = False
+    name: str = ""
+    reason: str = ""
+    """Why those that are known are of no use."""
+
+
+class Search:
+    """Turns everything that is looked for into jobs."""
+
+    def __init__(self, site: Site, belief: Belief) -> None:
+        self._belief = belief
+        self._centres: dict[str, Vec2] = {room.id: centre_m(room) for room in site.room}
+
+    def jobs(self, wanted: list[Wanted]) -> tuple[list[Job], list[str]]:
+        """Search jobs, and why some things are not looked for any more."""
+        rooms: dict[str, list[tuple[Wanted, float]]] = {}
+        peeks: dict[str, Job] = {}
+        hopeless: list[str] = []
+        for want in wanted:
+            places = self._rooms(want, again=False)
+            if not places:
+                inside = self._closed(want)
+                peeks.update({holder.id: self._peek(holder, want) for holder in inside})
+                if inside or want.every:
+                    continue
+                places = self._rooms(want, again=True)
+                if not places:
+                    hopeless.append(self._in_vain(want))
+                self._belief.notes.searched_twice.update(area.id for area in places)
+            for area in places:
+                chance = max(normalised(t, places, self._belief)[area.id] for t in want.types)
+                rooms.setdefault(area.id, []).append((want, chance))
+        explores = [self._explore(room, found) for room, found in sorted(rooms.items())]
+        return explores + list(peeks.values()), hopeless
+
+    def open_for(self, want: Wanted) -> bool:
+        """Whether there is any place left to look."""
+        return bool(self._rooms(want, again=False) or self._closed(want))
+
+    def _rooms(self, want: Wanted, again: bool) -> list[AreaState]:
+        """Rooms that are still to be gone through, the first or the second time."""
+        notes, bans, failures = self._belief.notes, self._belief.bans, self._belief.failures
+        return [
+            area
+            for area in self._belief.world.areas
+            if area.id in self._centres
+            and (want.rooms is None or area.id in want.rooms)
+            and area.id not in bans.rooms
+            and not failures.spent("explore", area.id)
+            and (area.id not in notes.searched_twice if again else not area.searched)
+        ]
+
+    def _closed(self, want: Wanted) -> list[ObjectState]:
+        """Closed receptacles that may hide it and that nobody has looked into."""
+        belief = self._belief
+        least = EVERY_INSIDE if want.every else 1e-9
+        return [
+            obj
+            for obj in sorted(belief.world.objects, key=lambda o: o.id)
+            if catalogue()[obj.type].must_open
+            and not belief.is_open(obj)
+            and obj.id not in belief.notes.peeked
+            and (want.rooms is None or obj.room in want.rooms)
+            and max(inside_prior(t, obj) for t in want.types) >= least
+            and not belief.bans.forbids("open", obj)
+            and not belief.failures.spent("open", obj.id)
+            and belief.held_by(obj) is None
+        ]
+
+    def _peek(self, holder: ObjectState, want: Wanted) -> Job:
+        self._belief.notes.peeked.add(holder.id)
+        self._belief.notes.opened.add(holder.id)
+        steps = [on("open", holder), on("inspect", holder)]
+        chance = max(inside_prior(t, holder) for t in want.types)
+        return Job(steps, want.goal, about=frozenset({holder.id}), weight=chance)
+
+    def _explore(self, room: str, found: list[tuple[Wanted, float]]) -> Job:
+        """Where all of something is wanted, or another one than is known there, no sighting ends the search of a room."""
+        types = tuple(dict.fromkeys(t for want, _ in found for t in want.types))
+        known = any(obj.type in types for obj in self._belief.world.objects if obj.room == room)
+        if known or any(want.every for want, _ in found):
+            types = ()
+        step = Step("explore", self._centres[room], room=room, looking_for=types)
+        return Job([step], found[0][0].goal, weight=sum(chance for _, chance in found))
+
+    def visit(self, room: str, goal: int) -> Job:
+        """Go through one room because that is what was asked."""
+        if room not in self._centres:
+            raise Impossible(f"the site has no room {room}")
+        if room in self._belief.bans.rooms:
+            raise Impossible(f"{room} may not be entered")
+        if self._belief.failures.spent("explore", room):
+            raise Impossible(self._belief.failures.last(room))
+        return Job([Step("explore", self._centres[room], room=room)], goal)
+
+    def _in_vain(self, want: Wanted) -> str:
+        if want.reason:
+            return want.reason
+        where = f" in {', '.join(sorted(want.rooms))}" if want.rooms is not None else " in any room"
+        if self._belief.bans.rooms:
+            where += " that may be entered"
+        return f"no {want.name} was found{where}"

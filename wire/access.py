@@ -119,8 +119,8 @@ def _keys(site: Site, user: User, paths: list[str], speaking: bool = False) -> l
 
 
 def _own(site: Site, user: User, path: str) -> str:
-    # one chunk may end in `$*`: every console has an id of its own under the one user
-    return f"{site.realm}/{path.replace(PLACE, user.name + '-$*' if user.name in GUESTS else user.name)}"
+    # every console has an id of its own under the one user, `console` or `console-<something>`
+    return f"{site.realm}/{path.replace(PLACE, f'{user.name}$*' if user.name in GUESTS else user.name)}"
 
 
 def _rule(id: str, flow: str, messages: list[str], keys: list[str]) -> dict[str, Any]:

@@ -88,4 +88,4 @@ def test_a_camera_named_in_the_arguments() -> None:
 
 
 def test_consoles_share_a_user(site: Site) -> None:
-    assert "r2x/alive/console-$*" in granted(site, "console", "liveliness_token", "ingress")
+    assert "r2x/alive/console$*" in granted(site, "console", "liveliness_token", "ingress")

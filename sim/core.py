@@ -16,6 +16,7 @@ from sim.physics import Physics, RobotStart
 from sim.render import Renderer, make_renderer
 from sim.render.picture import RenderError
 from sim.scene import Scene
+from sim.task import make_task
 from wire.bus import CannotRun, Event, Node, Received, Request
 from wire.messages.driver import GripperCommand, VelocityCommand
 from wire.messages.truth import JudgeRequest, TruthState, TruthTask
@@ -127,7 +128,7 @@ def build(site: Site, process_id: str) -> SimCore:
         renderer = make_renderer(scene, site.sim.renderer, parts)
     except RenderError as error:
         raise CannotRun(str(error)) from error
-    return SimCore(site, scene, TruthTask(instruction="", goals=()), renderer)
+    return SimCore(site, scene, make_task(scene, site.sim.seed), renderer)
 
 
 def _substeps(site: Site) -> int:

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.boxes import Box, body_box, structure_boxes
-from sim.generator.access import standing_areas
+from sim.generator.access import body_area, standing_areas
 from sim.generator.areas import Area
-from sim.scene import CctvPose, Room, Scene, Vec2
+from sim.scene import CctvPose, Room, Scene, Vec2, Vec3
 from wire.frames import camera_axes
 
 WIDTH_PX, HEIGHT_PX, FOCAL_PX = 640, 480, 320.0
@@ -22,6 +22,8 @@ AIM = (0.46, 0.54)
 CAMERAS = (4, 6)
 EACH_ROOM, DRAWS = 6, 400
 OFF_WALL_M = 0.12
+TALL_M = 1.35
+"""No camera hangs over anything taller: it would see little else."""
 
 Mask = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -31,7 +33,9 @@ def place_cameras(scene: Scene, rng: Random) -> tuple[CctvPose, ...] | None:
     """A set of four to six; None when none of those drawn watches the right share."""
     floor = free_floor(scene)
     solids = _solids(scene)
-    poses = [pose for room in scene.rooms for pose in _candidates(room, rng)]
+    tall = [body_area(b).grown(0.1) for b in scene.bodies.values() if b.position_m[2] + b.size_m[2] > TALL_M]
+    drawn = [pose for room in scene.rooms for pose in _candidates(room, rng)]
+    poses = [p for p in drawn if not any(_within(p.position_m, area) for area in tall)]
     seen = [watched(pose, floor, solids) for pose in poses]
     useful = [k for k, mask in enumerate(seen) if mask.mean() > 0.04]
     wanted = min(CAMERAS[1], max(CAMERAS[0], len(scene.rooms) - rng.randint(0, 1)))
@@ -75,6 +79,10 @@ def free_floor(scene: Scene) -> Floats:
             (points[:, 0] > area.x0) & (points[:, 0] < area.x1) & (points[:, 1] > area.y0) & (points[:, 1] < area.y1)
         )
     return points[~taken]
+
+
+def _within(point_m: Vec3, area: Area) -> bool:
+    return area.x0 <= point_m[0] <= area.x1 and area.y0 <= point_m[1] <= area.y1
 
 
 def _flat(box: Box) -> Area:

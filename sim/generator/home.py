@@ -62,7 +62,7 @@ def _draw_home(seed: int, house: House, rng: Random) -> Scene | None:
     walkable = floor.walkable(needed_m=ROBOT_CLEAR_M)
     if walkable is None or not all_rooms_joined(scene, floor, walkable) or out_of_reach(scene, floor, walkable):
         return None
-    starts = draw_starts(rooms, floor, walkable, rng)
+    starts = draw_starts(scene, floor, walkable, rng)
     cameras = place_cameras(scene, rng)
     if starts is None or cameras is None:
         return None

@@ -5,20 +5,25 @@ from random import Random
 
 import numpy as np
 
+from sim.generator.areas import Area
 from sim.generator.floor import CELL_M, Floor, Mask
-from sim.scene import Room, Vec2
+from sim.scene import Room, Scene, Vec2
 
 TOGETHER, SPREAD = 4, 6
 APART_M = 1.0
 START_CLEAR_M = 0.52
+OFF_DOOR_M = 0.7
 Start = tuple[Vec2, float]
 
 
-def draw_starts(rooms: tuple[Room, ...], floor: Floor, walkable: Mask, rng: Random) -> tuple[Start, ...] | None:
+def draw_starts(scene: Scene, floor: Floor, walkable: Mask, rng: Random) -> tuple[Start, ...] | None:
     """None when the largest room has no place for them."""
     free = walkable & (floor.clearance_m >= START_CLEAR_M)
+    for door in scene.doors:
+        (x0, y0), (x1, y1) = door.start_m, door.end_m
+        free &= floor.distance_m(Area(x0, y0, x1, y1)) >= OFF_DOOR_M
     points = [(float(x), float(y)) for x, y in zip(floor.x[free], floor.y[free], strict=True)]
-    largest = max(rooms, key=lambda room: _floor_m2(room.polygon_m))
+    largest = max(scene.rooms, key=lambda room: _floor_m2(room.polygon_m))
     together = _together([p for p in points if _inside(p, largest)], rng)
     if together is None:
         return None

@@ -112,8 +112,8 @@ def kettle(form: Form) -> Iterator[Part]:
         yield box((-0.02, side * w * 0.30, h * 0.76), (0.02, 0.015, h * 0.36), BLACK)
     yield box((-0.02, 0.0, h * 0.96), (0.03, w * 0.62, h * 0.08), BLACK)
     if form.open:
-        yield cylinder((-0.02, 0.0, h * 0.685), (d * 0.42, w * 0.42, h * 0.05), (0.04, 0.04, 0.05))
-        yield cylinder((-d * 0.36, 0.0, h * 0.80), (d * 0.40, w * 0.42, 0.012), shade(steel, 0.7), METAL, pitch=-1.3)
+        yield cylinder((-0.02, 0.0, h * 0.69), (d * 0.46, w * 0.46, h * 0.06), (0.04, 0.04, 0.05))
+        yield cylinder((-d * 0.34, 0.0, h * 0.86), (d * 0.46, w * 0.52, 0.014), shade(steel, 1.25), METAL, pitch=-1.25)
     else:
         yield cylinder((-0.02, 0.0, h * 0.69), (d * 0.42, w * 0.42, h * 0.06), shade(steel, 0.7), METAL)
         yield sphere((-0.02, 0.0, h * 0.75), (0.03, 0.03, 0.03), BLACK)

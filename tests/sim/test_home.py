@@ -4,6 +4,7 @@ import hashlib
 import time
 from functools import lru_cache
 from itertools import combinations
+from math import hypot
 
 import pytest
 
@@ -30,7 +31,7 @@ def fingerprint(scene: Scene) -> str:
 def test_same_seed_same_home() -> None:
     started = time.perf_counter()
     again = make_home(7)
-    assert time.perf_counter() - started < 6.0
+    assert time.perf_counter() - started < 10.0
     assert fingerprint(again) == fingerprint(home(7))
     assert len({fingerprint(home(seed)) for seed in SEEDS}) == len(SEEDS)
 
@@ -90,6 +91,9 @@ def test_a_robot_gets_everywhere(seed: int) -> None:
     assert len(scene.robot_starts) >= 6
     for (x, y), _yaw in scene.robot_starts:
         assert floor.near(walkable, (x, y)) < 0.1
+        assert all(
+            hypot(x - (d.start_m[0] + d.end_m[0]) / 2, y - (d.start_m[1] + d.end_m[1]) / 2) > 0.6 for d in scene.doors
+        )
 
 
 @pytest.mark.parametrize("seed", SEEDS)

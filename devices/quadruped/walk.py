@@ -84,16 +84,12 @@ def face_point(body: Body, point_m: Vec2, within_rad: float = ALIGNED_RAD) -> St
 def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
     """Go to the cheapest of the goals."""
     yield from await_odometry(body)
-    no_way = 0
+    no_way, around = 0, False
     tries = 0
     while tries < MAX_PLANS:
         yield from edge_away(body)
-        legs = _plan(body, goals, body.others_m)
-        if legs is None and body.others_m and (wanted := _plan(body, goals, ())) is not None:
-            body.note = "waiting for another robot to clear the way"
-            body.path_m = tuple(wanted)  # whoever directs the traffic needs to know
-            yield from wait(body, NO_WAY_WAIT_S)
-            continue
+        # Robots that move are the traffic's business; around one that stays in the way there may be another.
+        legs = (_plan(body, goals, body.others_m) if around else None) or _plan(body, goals, ())
         if legs is None:
             no_way += 1
             if no_way > NO_WAY_TRIES:
@@ -102,6 +98,7 @@ def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
             yield from wait(body, 0.5 * NO_WAY_WAIT_S)
             continue
         trouble = yield from follow(body, legs)
+        around = trouble == OTHER_IN_WAY and not around
         body.path_m = ()
         body.stand()
         if not trouble:

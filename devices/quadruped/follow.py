@@ -6,12 +6,12 @@ from wire.frames import bearing_rad, wrap_rad
 from wire.model import Vec2
 
 CRUISE_MPS = 0.8
-NEAR_MPS = 0.45
+NEAR_MPS = 0.5
 """Where something is near, as in doors."""
 TURN_RADPS = 1.5
 TURN_GAIN = 4.0
 BRAKE_MPS2 = 0.8
-SHARP_RAD, ALIGNED_RAD = 0.45, 0.08
+SHARP_RAD, ALIGNED_RAD, FACING_RAD = 0.5, 0.2, 0.08
 LOOKAHEAD_M = 0.45
 CORNER_M, ARRIVED_M = 0.15, 0.05
 

@@ -9,7 +9,7 @@ from math import hypot
 
 from devices.quadruped import path
 from devices.quadruped.body import Body
-from devices.quadruped.follow import ALIGNED_RAD, CRUISE_MPS, NEAR_MPS, Follower, turn_rate
+from devices.quadruped.follow import CRUISE_MPS, FACING_RAD, NEAR_MPS, Follower, turn_rate
 from devices.quadruped.map import Cell
 from devices.quadruped.spacing import edge_away, runs_into_other
 from wire.frames import bearing_rad, wrap_rad
@@ -62,7 +62,7 @@ def await_odometry(body: Body) -> Steps:
         yield
 
 
-def face(body: Body, yaw_rad: float, within_rad: float = ALIGNED_RAD) -> Steps:
+def face(body: Body, yaw_rad: float, within_rad: float = FACING_RAD) -> Steps:
     """Turn on the spot."""
     if abs(wrap_rad(yaw_rad - body.yaw_rad)) > within_rad:
         body.action_steps += 1
@@ -77,7 +77,7 @@ def face(body: Body, yaw_rad: float, within_rad: float = ALIGNED_RAD) -> Steps:
     body.stand()
 
 
-def face_point(body: Body, point_m: Vec2, within_rad: float = ALIGNED_RAD) -> Steps:
+def face_point(body: Body, point_m: Vec2, within_rad: float = FACING_RAD) -> Steps:
     yield from face(body, bearing_rad(body.position_m, point_m), within_rad)
 
 

@@ -69,7 +69,7 @@ class Dispatch:
             pair = run.steps[node.same_robot_as]
             if pair.robot is not None and pair.robot != robot.id and node.action != "put":
                 return False
-        if node.action == "put":
+        if node.action == "put" or node.item is not None:
             return robot.inventory == node.item
         if node.action in ("pickup", "slice", "clean"):
             return robot.inventory is None

@@ -30,7 +30,9 @@ def apply(world: World, node: PlanNode, robot: str, result: Result) -> None:
 def _succeeded(world: World, node: PlanNode, robot: str, result: Result) -> None:
     thing = world.things.get(node.object)
     if node.action == "explore" and node.room is not None:
-        world.areas.search_done(node.room, robot, result.stamp_s)
+        if result.point_enu_m is None:
+            # A search that found something ended there, with the rest of the room unseen.
+            world.areas.search_done(node.room, robot, result.stamp_s)
     elif thing is None:
         return
     elif node.action == "pickup":

@@ -34,7 +34,8 @@ class Judge:
         self._seq = 0
 
     def watch(self) -> None:
-        """Note where the robots are and what their mast cameras see from near."""
+        """Note where the robots are, what their mast cameras see from near and what their hands have handled."""
+        self._verified |= {deed.target for arm in self._arms.values() for deed in arm.deeds}
         for id, rover in self._physics.robots.items():
             room = room_of(self._scene, rover.motion().position_m)
             if room is not None:

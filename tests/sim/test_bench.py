@@ -1,3 +1,5 @@
+"""The physics is as fast as promised."""
+
 from sim.bench import measure
 from sim.generator import make_home
 

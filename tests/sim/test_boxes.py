@@ -1,3 +1,5 @@
+"""Upright boxes: distances, overlaps, and rays past them."""
+
 from math import dist, pi
 
 import pytest

@@ -1,3 +1,5 @@
+"""The gripper: every precondition, every effect, and what it tells of the world."""
+
 import pytest
 
 from sim.boxes import body_box, boxes_overlap

@@ -1,10 +1,12 @@
+"""The simulator on the mesh: its streams, its faults, its judge, and a robot that does an errand."""
+
 from math import hypot, radians
 
 import cv2
 import numpy as np
 import pytest
 
-from sim.core import SimCore
+from sim.core import SimCore, build
 from sim.render import make_renderer
 from sim.scene import Part
 from tests.sim.small_home import FRIDGE, make_small_home, make_small_site
@@ -23,7 +25,7 @@ from wire.messages.driver import (
 )
 from wire.messages.goal import Goal, Selector
 from wire.messages.truth import JudgeRequest, TruthState, TruthTask
-from wire.site import SiteError
+from wire.site import Sim, SiteError
 
 TV_ON = Goal(predicate="on", subject=Selector(type="Television"))
 
@@ -307,3 +309,20 @@ def test_truth_is_published_twice_a_second(make_mesh):
     assert len(states) == 4
     assert len(states[-1].world.objects) == len(core.scene.bodies)
     assert states[-1].world.robots[0].room == "kitchen"
+
+
+def test_a_site_builds_its_own_home_with_a_task_that_is_not_done_yet():
+    site = make_small_site().model_copy(update={"sim": Sim(seed=5)})
+    core = build(site, "sim")
+    mesh = LoopbackMesh()
+    mesh.add(core, "sim", "sim", owner=True)
+    reply = mesh.call("judge", JudgeRequest(), role="evaluator")
+    mesh.close()
+    assert reply.task.instruction
+    assert reply.goals
+    assert not reply.success
+
+
+def test_a_site_without_a_simulated_building_is_refused():
+    with pytest.raises(SiteError, match="needs a"):
+        build(make_small_site().model_copy(update={"sim": None}), "sim")

@@ -1,3 +1,5 @@
+"""Robots drive, stop at what is solid, and push what is loose; the lidar measures it."""
+
 from math import cos, hypot, pi, sin
 
 import pytest

@@ -18,7 +18,7 @@ from wire.model import Message
 from wire.paths import id_in, key, pattern, service_for, topic_for
 from wire.site import Site
 
-LETTERS_AT_ONCE = 1000
+LETTERS_AT_ONCE = 100
 """A step handles no more than this, so that a flood leaves time for what is due."""
 _REMOTE = zenoh.Locality.REMOTE
 

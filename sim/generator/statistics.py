@@ -61,11 +61,11 @@ def draw_size_m(kind: str, rng: Random) -> Vec3:
     """A size between the 10th and the 90th percentile, the same quantile along every axis."""
     row, q = catalogue()[kind], rng.random()
     if kind in SIZE_LIMITS_M:
-        small, large = SIZE_LIMITS_M[kind]
-        return tuple(round(a + (b - a) * rng.random(), 3) for a, b in zip(small, large, strict=True))  # type: ignore[return-value]
-    low, middle, high = row.size_p10_m, row.size_m, row.size_p90_m
-    x, y, z = (
-        a + (m - a) * 2.0 * q if q < 0.5 else m + (b - m) * (2.0 * q - 1.0)
-        for a, m, b in zip(low, middle, high, strict=True)
-    )
+        (x0, y0, z0), (x1, y1, z1) = SIZE_LIMITS_M[kind]
+        x, y, z = rng.uniform(x0, x1), rng.uniform(y0, y1), rng.uniform(z0, z1)
+    else:
+        x, y, z = (
+            a + (m - a) * 2.0 * q if q < 0.5 else m + (b - m) * (2.0 * q - 1.0)
+            for a, m, b in zip(row.size_p10_m, row.size_m, row.size_p90_m, strict=True)
+        )
     return (round(x, 3), round(y, 3), round(z, 3))

@@ -9,6 +9,7 @@ from sim.textures import FABRIC, METAL
 WARM: Rgb = (1.0, 0.90, 0.55)
 SHADES: tuple[Rgb, ...] = ((0.55, 0.52, 0.46), (0.35, 0.42, 0.45), (0.58, 0.42, 0.32))
 METALS: tuple[Rgb, ...] = ((0.15, 0.15, 0.16), STEEL, (0.55, 0.42, 0.20))
+SHADE_STEPS = 6
 
 
 def floor_lamp(form: Form) -> Iterator[Part]:
@@ -44,9 +45,9 @@ def _shade(form: Form, bottom_m: float, height_m: float, cloth: Rgb) -> Iterator
     """A shade of cloth that shines when the lamp is on."""
     d, w, _ = form.size_m
     lit, glow = (WARM, 1.0) if form.on else (cloth, 0.0)
-    for k, wide in enumerate((1.0, 0.86, 0.72)):
-        z = bottom_m + height_m * (k + 0.5) / 3.0
-        yield cylinder((0.0, 0.0, z), (d * wide, w * wide, height_m / 3.0), lit, FABRIC, glow=glow)
+    for k in range(SHADE_STEPS):
+        wide, z = 1.0 - 0.3 * k / (SHADE_STEPS - 1), bottom_m + height_m * (k + 0.5) / SHADE_STEPS
+        yield cylinder((0.0, 0.0, z), (d * wide, w * wide, height_m / SHADE_STEPS), lit, FABRIC, glow=glow)
     edge = (1.0, 1.0, 0.85) if form.on else shade(cloth, 0.6)
     yield cylinder((0.0, 0.0, bottom_m), (d * 0.9, w * 0.9, 0.004), edge, glow=glow)
     yield cylinder((0.0, 0.0, bottom_m + height_m), (d * 0.5, w * 0.5, 0.006), edge, glow=glow)

@@ -1,0 +1,60 @@
+"""The planner as a process: asked over the mesh, answering for the task and epoch it was asked about."""
+
+import time
+
+import pytest
+
+from planners.core import build
+from planners.planner import PLANNERS
+from tests.planners.test_tasks import furnished
+from tests.planners.toy import site
+from wire.bus import CannotRun
+from wire.loopback import LoopbackMesh
+from wire.messages.goal import Goal, Selector
+from wire.messages.plan import PlanReply, PlanRequest
+
+
+@pytest.mark.parametrize("name", PLANNERS)
+def test_every_planner_answers_over_the_mesh(name: str) -> None:
+    mesh = LoopbackMesh()
+    mesh.add(build(site(), "planner", name), "planner", "planner")
+    world = furnished(1, ("kitchen",)).world()
+    request = PlanRequest(task="t-9", epoch=4, instruction="turn off every TV", world=world, now_s=0.0)
+    reply = mesh.call("make_plan", request, role="hub")
+    assert isinstance(reply, PlanReply)
+    assert (reply.task, reply.epoch) == ("t-9", 4)
+    assert reply.plan is not None
+    assert reply.plan.planner == name
+
+
+def test_an_unknown_planner_is_named() -> None:
+    with pytest.raises(CannotRun, match="there is no planner 'oracle'"):
+        build(site(), "planner", "oracle")
+
+
+def test_settled_goals_are_not_read_again() -> None:
+    world = furnished(1, ("kitchen",)).world()
+    goals = (Goal(predicate="visited", subject=Selector(room="kitchen")),)
+    request = PlanRequest(task="t", epoch=1, instruction="gibberish", goals=goals, world=world, now_s=0.0)
+    reply = PLANNERS["scripted"](site()).make_plan(request)
+    assert reply.plan is not None
+    assert [node.room for node in reply.plan.nodes] == ["kitchen"]
+
+
+def test_a_large_world_is_planned_in_time() -> None:
+    planner = PLANNERS["scripted"](site())
+    took = []
+    for seed in range(12):
+        house = furnished(seed, ())
+        for index in range(60 - len(house.things)):
+            house.add("Book", "bedroom-1", "bed-1") if index % 2 else house.add("Mug", "kitchen", "countertop-1")
+        for thing in house.things.values():
+            house.see(house.dogs[0], thing)
+        words = "put all the books on the shelf, all mugs in the sink and turn off every lamp and TV"
+        request = PlanRequest(task=f"t-{seed}", epoch=1, instruction=words, world=house.world(), now_s=0.0)
+        began = time.process_time()
+        reply = planner.make_plan(request)
+        took.append(time.process_time() - began)
+        assert reply.plan is not None
+        assert len(reply.plan.nodes) > 40
+    assert sorted(took)[-2] < 0.8

@@ -16,6 +16,8 @@ VOTE_MEMORY = 0.8
 """What is left of earlier votes after a new one: pictures of one camera are not independent."""
 PROP_MEMORY = 0.6
 PROP_LIMIT = 4.0
+PROP_SILENCE = 0.4
+"""Log-odds nearer to nought than this say nothing."""
 POSITION_GAIN = 0.3
 
 
@@ -99,7 +101,7 @@ class Track:
         return {
             prop: float(1.0 / (1.0 + np.exp(-log_odds)))
             for prop, log_odds in sorted(self.prop_log_odds.items())
-            if row.can(PROP_FLAG[prop])
+            if row.can(PROP_FLAG[prop]) and abs(log_odds) >= PROP_SILENCE
         }
 
     def observation(self) -> ObjectObservation:

@@ -221,8 +221,8 @@ def without_doors(wall: Wall, doors: Iterable[Door]) -> list[tuple[Vec2, Vec2]]:
             gaps.append(sorted(along for along, _ in jambs))
     pieces, here = [], 0.0
     for begin, end in [*sorted(gaps), [length, length]]:
-        if begin > here + 1e-6:
-            stop = min(begin, length)
+        stop = min(begin, length)
+        if stop > here + 1e-6:
             pieces.append(((x0 + here * ux, y0 + here * uy), (x0 + stop * ux, y0 + stop * uy)))
         here = max(here, end)
     return pieces

@@ -57,6 +57,8 @@ def test_a_wall_drawn_through_a_door_has_a_gap() -> None:
     wall = Wall(start_m=(0.0, 0.0), end_m=(0.0, 5.0))
     door = Door(id="d", rooms=("a", "b"), start_m=(0.0, 3.0), end_m=(0.0, 2.0))
     assert without_doors(wall, [door]) == [((0.0, 0.0), (0.0, 2.0)), ((0.0, 3.0), (0.0, 5.0))]
+    beyond = Door(id="f", rooms=("a", "b"), start_m=(0.0, 6.0), end_m=(0.0, 7.0))
+    assert without_doors(wall, [door, beyond]) == without_doors(wall, [door])
     elsewhere = Door(id="e", rooms=("a", "b"), start_m=(1.0, 3.0), end_m=(1.0, 2.0))
     assert without_doors(wall, [elsewhere]) == [((0.0, 0.0), (0.0, 5.0))]
 

@@ -108,7 +108,7 @@ class CctvCore:
 
     def _look(self, frame: CameraFrame) -> None:
         try:
-            seen = look_at_frame(frame, self._detector)
+            seen = look_at_frame(frame, self._detector, self._site.wall, self._site.door)
         except PictureError as error:
             log.warning("%s", error)
             return

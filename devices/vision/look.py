@@ -11,13 +11,16 @@
 mug that I am to pick up in front of me?). Depth is used when the frame has it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from devices.vision.detector import Detector
 from devices.vision.lens import Depth, Lens
 from devices.vision.picture import decode_frame
 from devices.vision.projection import Sighting, locate
+from devices.vision.walls import before_walls
 from wire.messages.driver import CameraFrame
+from wire.site import Door, Wall
 
 
 @dataclass(frozen=True)
@@ -30,9 +33,16 @@ class Seen:
     sightings: tuple[Sighting, ...]
 
 
-def look_at_frame(frame: CameraFrame, detector: Detector) -> Seen:
-    """Detect and locate. Raises PictureError when the frame's bytes are not what it says."""
+def look_at_frame(
+    frame: CameraFrame, detector: Detector, walls: Sequence[Wall] = (), doors: Sequence[Door] = ()
+) -> Seen:
+    """Detect and locate; a camera without depth does better when it is told of the walls.
+
+    Raises PictureError when the frame's bytes are not what it says.
+    """
     picture = decode_frame(frame)
     detections = detector.look(picture.rgb, picture.lens)
     sightings = locate(detections, picture.lens, picture.depth_m)
+    if picture.depth_m is None:
+        sightings = before_walls(sightings, picture.lens, walls, doors)
     return Seen(picture.stamp_s, picture.lens, picture.depth_m, tuple(sightings))

@@ -1,12 +1,12 @@
 """The piece of floor that a camera watches, as far as the site's walls and the size of pixels let it."""
 
 from collections.abc import Sequence
-from math import atan, cos, hypot, sin
+from math import atan, cos, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from devices.vision.lens import Floats, Lens
+from devices.vision.walls import wall_ranges_m
 from wire.messages.observation import View
 from wire.model import Vec2
 from wire.site import Door, Wall
@@ -14,7 +14,6 @@ from wire.site import Door, Wall
 SMALL_THING_M = 0.10
 SMALL_THING_PX = 7.0
 """A thing of this size is noticed when it covers so many pixels."""
-DOOR_SLACK_M = 0.1
 MAX_BEARINGS = 30
 
 
@@ -98,36 +97,3 @@ def _through(corners: Floats, origin: Floats, bearings: Floats) -> tuple[Floats,
         enter = np.where(speed > 0.0, np.maximum(enter, crossing), enter)
         leave = np.where(speed < 0.0, np.minimum(leave, crossing), leave)
     return enter, leave
-
-
-def wall_ranges_m(origin: Floats, bearings: Floats, walls: Sequence[Wall], doors: Sequence[Door]) -> Floats:
-    """Distance to the first wall along every bearing; a wall is open between the jambs of a door."""
-    ranges = np.full(len(bearings), np.inf)
-    if not walls:
-        return ranges
-    start = np.array([w.start_m for w in walls])
-    along = np.array([w.end_m for w in walls]) - start
-    directions = np.stack([np.cos(bearings), np.sin(bearings)], axis=1)
-    across = directions[:, None, 0] * along[None, :, 1] - directions[:, None, 1] * along[None, :, 0]
-    across = np.where(np.abs(across) < 1e-9, 1e-9, across)
-    gap = start - origin
-    distance = (gap[:, 0] * along[:, 1] - gap[:, 1] * along[:, 0])[None, :] / across
-    fraction = (gap[None, :, 0] * directions[:, None, 1] - gap[None, :, 1] * directions[:, None, 0]) / across
-    hit = (distance > 0.0) & (fraction >= 0.0) & (fraction <= 1.0)
-    points = origin + directions[:, None, :] * np.where(hit, distance, 0.0)[:, :, None]
-    for door in doors:
-        hit &= ~_in_door(points, door)
-    result: Floats = np.where(hit, distance, np.inf).min(axis=1)
-    return result
-
-
-def _in_door(points: Floats, door: Door) -> NDArray[np.bool_]:
-    """Whether points lie in the opening."""
-    start, end = np.array(door.start_m), np.array(door.end_m)
-    width = max(1e-6, hypot(*(end - start)))
-    unit = (end - start) / width
-    away = points - start
-    along = away @ unit
-    beside = np.abs(away[..., 0] * unit[1] - away[..., 1] * unit[0])
-    inside: NDArray[np.bool_] = (along > 0.0) & (along < width) & (beside < DOOR_SLACK_M)
-    return inside

@@ -18,6 +18,7 @@ from sim.training.labels import LABEL, Labels, label_picture
 from sim.training.poses import cctv_lens, mast_lens
 from sim.training.scenery import Scenery
 from sim.training.shards import Shard, write_shard
+from wire.site import Door, Wall
 
 log = logging.getLogger("frames")
 HELD_OUT = 9000
@@ -32,6 +33,8 @@ class Shot:
     depth_m: Depth
     lens: Lens
     labels: Labels
+    walls: tuple[Wall, ...]
+    doors: tuple[Door, ...]
 
 
 def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
@@ -40,6 +43,8 @@ def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
     scene = make_home(seed)
     renderer = make_renderer(scene, "auto", parts)
     scenery = Scenery(scene, renderer, rng)
+    walls = tuple(Wall(start_m=w.start_m, end_m=w.end_m) for w in scene.walls)
+    doors = tuple(Door(id=d.id, rooms=d.rooms, start_m=d.start_m, end_m=d.end_m) for d in scene.doors)
     taken = 0
     for number in range(cctv + mast):
         if number % 2 == 0:
@@ -51,7 +56,7 @@ def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
         assert picture.ids is not None
         assert picture.depth_m is not None
         labels = label_picture(picture.ids, picture.depth_m, lens, scenery.things(ROBOT_ID), taken)
-        yield Shot(encode_jpeg(picture.rgb, int(rng.integers(70, 96))), picture.depth_m, lens, labels)
+        yield Shot(encode_jpeg(picture.rgb, int(rng.integers(70, 96))), picture.depth_m, lens, labels, walls, doors)
         taken += 1
     renderer.close()
 

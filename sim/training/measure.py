@@ -19,6 +19,7 @@ from devices.vision import layout
 from devices.vision.detector import EmbeddedDetector
 from devices.vision.picture import decode_jpeg
 from devices.vision.projection import locate
+from devices.vision.walls import before_walls
 from sim.training.batches import clear_enough
 from sim.training.frames import Shot, shoot_home, span
 from sim.training.matching import Matched, match
@@ -101,7 +102,10 @@ def measure(shots: Sequence[Shot], detector: EmbeddedDetector) -> dict[str, Any]
         started_s = time.thread_time()
         detections = detector.look(rgb, shot.lens)
         looking_ms[kind].append(1000.0 * (time.thread_time() - started_s))
-        sightings = locate(detections, shot.lens, shot.depth_m if kind == "mast" else None)
+        if kind == "mast":
+            sightings = locate(detections, shot.lens, shot.depth_m)
+        else:
+            sightings = before_walls(locate(detections, shot.lens), shot.lens, shot.walls, shot.doors)
         last = first + len(shot.labels)
         tallies[kind].add(match(shot.labels, clear[first:last], sightings))
         first = last

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from devices.vision.detector import Detection
 from devices.vision.lens import Lens
 from devices.vision.projection import locate
+from devices.vision.walls import before_walls
 from wire.frames import project
+from wire.site import Door, Wall
 
 ANGLES = st.floats(-3.1, 3.1)
 
@@ -67,3 +69,16 @@ def test_no_depth_measured_falls_back_to_the_plane() -> None:
     (plane,) = locate([one], lens(0.0, 0.5))
     (blind,) = locate([one], lens(0.0, 0.5), np.zeros((480, 640), dtype=np.float32))
     assert blind.position_enu_m == plane.position_enu_m
+
+
+def test_nothing_is_seen_behind_a_wall_but_through_a_door() -> None:
+    camera = Lens(640, 480, 320.0, (0.0, 0.0, 2.3), 0.0, 0.5)
+    (far,) = locate([detection(320, 200, 0.2)], camera)
+    wall = Wall(start_m=(3.0, -2.0), end_m=(3.0, 2.0))
+    door = Door(id="d", rooms=("a", "b"), start_m=(3.0, -0.5), end_m=(3.0, 0.5))
+    assert far.position_enu_m[0] > 4.0
+    (kept,) = before_walls([far], camera, (wall,), ())
+    assert kept.position_enu_m[0] == pytest.approx(2.92)
+    u, v, _ = camera.pixels(kept.position_enu_m)[0]
+    assert (u, v) == pytest.approx((320, 200))
+    assert before_walls([far], camera, (wall,), (door,)) == [far]

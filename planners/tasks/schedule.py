@@ -4,14 +4,13 @@ One job at a time for each robot (one hand). The objective is 20 x the time unti
 that all of them walk. The number of evaluations is fixed, so that the same jobs always get the same schedule.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, inf
 from random import Random
 
 MAKESPAN_WEIGHT = 20.0
-EVALUATION_BUDGET = 60_000
-"""Evaluated jobs in all: about 0.1 s."""
+MOST_EVALUATIONS, JOB_BUDGET = 8_000, 160_000
+"""Schedules tried, and jobs in them together: at most about 0.2 s."""
 HOT, COLD = 100.0, 0.5
 Sequences = list[list[int]]
 
@@ -62,42 +61,40 @@ class Timing:
 
 def evaluate(problem: Problem, sequences: Sequences) -> Timing | None:
     """Times of every job when each robot works through its list; None when robots wait for each other for ever."""
-    shifts = problem.shifts
+    shifts, way_s = problem.shifts, problem.way_s
     end: list[float | None] = [None] * len(shifts)
     begin = [0.0] * len(shifts)
-    clock = [0.0] * problem.robots
-    at = [0] * problem.robots
+    clock = [0.0] * len(sequences)
+    todo = [iter(jobs) for jobs in sequences]
+    next_way = [problem.start_s[robot] for robot in range(len(sequences))]
+    job_of = [next(jobs, None) for jobs in todo]
     travel = 0.0
-    left = sum(map(len, sequences))
-    while left:
+    moved = True
+    while moved:
         moved = False
-        for robot, jobs in enumerate(sequences):
-            while at[robot] < len(jobs):
-                job = jobs[at[robot]]
-                start = clock[robot] + _way(problem, robot, jobs, at[robot])
-                for wait in shifts[job].waits:
+        for robot, job in enumerate(job_of):
+            while job is not None:
+                way = next_way[robot][job]
+                start = clock[robot] + way
+                shift = shifts[job]
+                for wait in shift.waits:
                     done = end[wait.job]
                     if done is None:
                         break
-                    start = max(start, done - wait.offset_s)
+                    if done - wait.offset_s > start:
+                        start = done - wait.offset_s
                 else:
-                    travel += _way(problem, robot, jobs, at[robot])
+                    travel += way
                     begin[job] = start
-                    end[job] = clock[robot] = start + shifts[job].duration_s
-                    at[robot] += 1
-                    left -= 1
+                    end[job] = clock[robot] = start + shift.duration_s
+                    next_way[robot] = way_s[job]
+                    job = job_of[robot] = next(todo[robot], None)
                     moved = True
                     continue
                 break
-        if not moved:
-            return None
+    if any(job is not None for job in job_of):
+        return None
     return Timing(max(clock, default=0.0), travel, tuple(begin), tuple(clock))
-
-
-def _way(problem: Problem, robot: int, jobs: Sequence[int], index: int) -> float:
-    if index == 0:
-        return problem.start_s[robot][jobs[0]]
-    return problem.way_s[jobs[index - 1]][jobs[index]]
 
 
 def greedy(problem: Problem) -> Sequences:
@@ -132,7 +129,7 @@ def schedule(problem: Problem, seed: int = 0) -> tuple[Sequences, Timing]:
     count = len(problem.shifts)
     if count < 2:
         return start, timing
-    return _anneal(problem, start, timing, Random(seed), EVALUATION_BUDGET // count)
+    return _anneal(problem, start, timing, Random(seed), min(MOST_EVALUATIONS, JOB_BUDGET // count))
 
 
 def _anneal(

@@ -5,7 +5,8 @@ from random import Random
 import pytest
 
 from planners.scripted.planner import ScriptedPlanner
-from tests.planners.toy import ROOMS, House, run, site
+from tests.planners.executor import run
+from tests.planners.toy import ROOMS, House, site
 from wire.goals import holds
 from wire.messages.plan import PlanReply
 

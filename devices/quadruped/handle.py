@@ -2,6 +2,7 @@
 
 from collections.abc import Generator
 from dataclasses import dataclass, field
+from math import inf
 
 from devices.quadruped import places
 from devices.quadruped.body import WALK_TILT_RAD, Body
@@ -22,7 +23,9 @@ GRIP_S = 10.0
 """Longer than any grasp takes."""
 STEP_BACK_S, STEP_BACK_MPS = 1.0, -0.3
 MOST_TRIES = 5
-MOST_SIDES = 2
+MOST_SIDES, MOST_SIDES_TO_PUT = 3, 2
+"""What is full on one side is rarely free on a third; what is hidden may be seen from there."""
+NEARER_M = 0.2
 GATE_M, GATE_MOST_M = 0.6, 1.5
 
 
@@ -49,6 +52,8 @@ class Attempt:
     seen: bool = False
     looked_around: bool = False
     tried_from_m: list[Vec2] = field(default_factory=list)
+    farthest_m: float = inf
+    """Standing further off than this was out of reach."""
 
     @property
     def gate_m(self) -> float:
@@ -126,13 +131,13 @@ def _handle(robot: Robot, target: Target | None, action: GripperAction) -> Skill
     body = robot.body
     attempt = Attempt(target, action, target.position_enu_m)
     yield from await_odometry(body)
-    last = Outcome("failed", "unreachable", f"{target.type}: nowhere to stand within reach")
+    last = nothing_tried = Outcome("failed", "unreachable", f"{target.type}: nowhere to stand within reach")
     for _ in range(MOST_TRIES):
-        if len(attempt.tried_from_m) >= MOST_SIDES:
+        if len(attempt.tried_from_m) >= (MOST_SIDES_TO_PUT if action == "put" else MOST_SIDES):
             break
         trouble = yield from _come_near(robot, attempt)
         if trouble is not None:
-            return last if attempt.tried_from_m and trouble.code == "unreachable" else trouble
+            return trouble if last is nothing_tried or trouble.code != "unreachable" else last
         if not places.within_reach(body.position_m, attempt.point_enu_m[:2], target.type):
             continue
         body.note = f"{action} {target.type}"
@@ -153,7 +158,8 @@ def _come_near(robot: Robot, attempt: Attempt) -> Generator[None, None, Outcome 
     body.note = f"going to {target.type} to {attempt.action} it"
 
     def goals() -> dict[Cell, float]:
-        return dict(places.beside(body.floor, point[:2], target.type, home, tuple(attempt.tried_from_m), swings))
+        tried, farthest_m = tuple(attempt.tried_from_m), attempt.farthest_m
+        return dict(places.beside(body.floor, point[:2], target.type, home, tried, swings, farthest_m))
 
     walked = yield from walk(body, goals)
     if not walked.arrived:
@@ -196,7 +202,10 @@ def _recover(body: Body, attempt: Attempt, code: ReasonCode) -> Steps:
             body.move(STEP_BACK_MPS, 0.0)
             yield
         body.stand()
-    attempt.tried_from_m.append(body.position_m)
+    if code == "unreachable":
+        attempt.farthest_m = distance_m(body.position_m, attempt.point_enu_m) - NEARER_M
+    else:
+        attempt.tried_from_m.append(body.position_m)
     if code == "not_there" and body.sighted and not attempt.looked_around:
         attempt.looked_around = True
         target = attempt.target

@@ -1,6 +1,7 @@
 """Where to stand: cells from which a place is reached or a thing can be worked on, with what each costs extra."""
 
 from collections.abc import Mapping
+from math import inf
 
 import numpy as np
 
@@ -15,12 +16,13 @@ POINT_SLACK_M, POINT_PRICE = 0.6, 6.0
 DOORWAY_M, DOORWAY_PRICE = 1.2, 5.0
 REACH_M = 1.2
 """Of the hand: from the body's centre to the nearest point of the thing, on the floor plane."""
-REACH_SPARE_M = 0.12
+REACH_SPARE_M, STANDING_M = 0.12, 0.12
 FAR_PRICE = 3.0
 COMFORT_M, COMFORT_PRICE = 0.75, 2.0
 SWING_M = 0.72
 """From the middle of what opens, beyond its half width: the door of a fridge swings out in front of it."""
 OTHER_SIDE_M = 0.6
+REFUGE_M, REFUGE_LEAST_M, REFUGE_PRICE = 3.0, 1.3, 1.5
 MOST_PLACES = 400
 
 
@@ -42,6 +44,14 @@ def in_room(floor: FloorMap, room: Room, doors: tuple[Door, ...]) -> Mapping[Cel
     return _cells(floor, inside & (price <= float(price[inside].min(initial=np.inf)) + DOORWAY_PRICE), price)
 
 
+def away_from(floor: FloorMap, others_m: tuple[Vec2, ...]) -> Mapping[Cell, float]:
+    """Anywhere out of the way of others, the further from them the better."""
+    away = np.full_like(floor.walls_m, REFUGE_M)
+    for other_m in others_m:
+        away = np.minimum(away, floor.distance_m(other_m))
+    return _cells(floor, (floor.clearance_m >= NEEDED_M) & (away >= REFUGE_LEAST_M), REFUGE_PRICE * (REFUGE_M - away))
+
+
 def beside(
     floor: FloorMap,
     point_m: Vec2,
@@ -49,11 +59,12 @@ def beside(
     room: Room | None = None,
     not_from_m: tuple[Vec2, ...] = (),
     door_swings: bool = False,
+    farthest_m: float = inf,
 ) -> Mapping[Cell, float]:
     """In reach of a thing and in sight of it, at a comfortable distance; not where it was tried from before."""
     away, half = floor.distance_m(point_m), half_width_m(type)
     closest_m = half + SWING_M if door_swings else 0.0
-    fits = (floor.clearance_m >= NEEDED_M) & (away <= REACH_M + half) & (away >= closest_m)
+    fits = (floor.clearance_m >= NEEDED_M) & (away <= min(REACH_M + half, farthest_m)) & (away >= closest_m)
     price: Grid = (COMFORT_PRICE * np.abs(away - half - COMFORT_M)).astype(np.float32)
     price += np.where(away > REACH_M + half - REACH_SPARE_M, FAR_PRICE, 0.0)
     return _facing(floor, fits, price, point_m, room, not_from_m)
@@ -86,7 +97,7 @@ def _facing(
 
 def within_reach(position_m: Vec2, point_m: Vec2, type: str) -> bool:
     """Whether the hand gets to a thing from where the body stands."""
-    return distance_m(position_m, point_m) <= REACH_M + half_width_m(type)
+    return distance_m(position_m, point_m) <= REACH_M + half_width_m(type) + STANDING_M
 
 
 def half_width_m(type: str) -> float:

@@ -81,10 +81,10 @@ def face_point(body: Body, point_m: Vec2, within_rad: float = FACING_RAD) -> Ste
     yield from face(body, bearing_rad(body.position_m, point_m), within_rad)
 
 
-def walk(body: Body, goals: Goals) -> Generator[None, None, Walked]:
-    """Go to the cheapest of the goals."""
+def walk(body: Body, goals: Goals, around: bool = False) -> Generator[None, None, Walked]:
+    """Go to the cheapest of the goals; `around` other robots from the start, or only when they stay in the way."""
     yield from await_odometry(body)
-    no_way, around = 0, False
+    no_way = 0
     tries = 0
     while tries < MAX_PLANS:
         yield from edge_away(body)

@@ -10,12 +10,14 @@ from devices.quadruped.robot import Robot
 from devices.quadruped.skills import SKILLS
 from devices.quadruped.walk import Steps, walk
 from devices.worker import Outcome, Pose
+from wire.frames import distance_m
 from wire.messages.command import Command, DeviceCard
 from wire.model import Vec2
 
 RADIUS_M, SPEED_MPS, PAYLOAD_KG = 0.38, 0.8, 3.0
 ASIDE_AGAIN_M = 0.3
 """An order to step aside that moves by less than this is the same order."""
+ASIDE_REACHED_M = 0.4
 LONGEST_STEP_S = 0.2
 """More than this between two steps was a pause, which does not count on a skill's clock."""
 
@@ -139,4 +141,8 @@ class QuadrupedWorker:
         return True
 
     def _clear_the_way(self, point_m: Vec2) -> Steps:
-        yield from walk(self._body, lambda: places.near_point(self._body.floor, point_m))
+        """To the point, or when something unknown to the traffic stands there, somewhere else out of the way."""
+        body = self._body
+        yield from walk(body, lambda: places.near_point(body.floor, point_m), around=True)
+        if distance_m(body.position_m, point_m) > ASIDE_REACHED_M:
+            yield from walk(body, lambda: places.away_from(body.floor, body.others_m), around=True)

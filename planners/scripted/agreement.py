@@ -15,7 +15,19 @@ def agree(goals: Sequence[Goal]) -> tuple[Goal, ...]:
     for index, goal in enumerate(kept):
         for other in kept[index + 1 :]:
             _check_pair(goal, other)
+        _check_whole(goal, kept)
     return tuple(kept)
+
+
+def _check_whole(goal: Goal, goals: Sequence[Goal]) -> None:
+    """What has been sliced cannot be carried in one piece: it must be moved first."""
+    if goal.predicate not in ("in", "at"):
+        return
+    for earlier in (goals[i] for i in goal.after):
+        if earlier.predicate == "sliced" and _same(earlier.subject, goal.subject):
+            what = called(goal.subject.type or "thing")
+            reason = f"a sliced {what} cannot be carried: should it be put there first and sliced then?"
+            raise Unclear(reason, goal.text, question=True)
 
 
 def _check_pair(goal: Goal, other: Goal) -> None:

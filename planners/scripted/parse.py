@@ -86,7 +86,7 @@ def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) 
         return Unclear(f"the instruction stops too early, after '{part}'", part)
     word: Word = token.value
     if word.kind.startswith("SEP") or word.kind.endswith("AND"):
-        before = next(w for w in reversed(typed) if w.start < word.start)
+        before = next((w for w in reversed(typed) if w.start < word.start), word)
         return Unclear(f"something is missing after '{before.text}'", before.text)
     end = next((w.start for w in typed if w.start > word.start and w.kind.startswith("SEP")), typed[-1].end)
     part = instruction[word.start : max(end, word.end)].strip()

@@ -1,14 +1,21 @@
 """Carries out plans in the toy house, one ready node at a time, and asks for the next plan until the task ends."""
 
+from collections.abc import Callable
+
 from planners.planner import Planner
 from tests.planners.toy import Dog, House
 from wire.goals import holds
 from wire.messages.goal import Goal
-from wire.messages.plan import PlanNode, PlanReply, PlanRequest
+from wire.messages.plan import Plan, PlanNode, PlanReply, PlanRequest
+from wire.messages.world import WorldState
 
 
 def run(
-    house: House, planner: Planner, instruction: str, most_plans: int = 40
+    house: House,
+    planner: Planner,
+    instruction: str,
+    most_plans: int = 40,
+    check: Callable[[Plan, WorldState], None] = lambda plan, world: None,
 ) -> tuple[PlanReply, tuple[Goal, ...], list[PlanReply]]:
     """Plan and carry out until the goals hold as far as is believed, or the planner refuses."""
     goals: tuple[Goal, ...] | None = None
@@ -30,6 +37,7 @@ def run(
         if reply.plan is None:
             return reply, goals or (), replies
         goals = reply.plan.goals
+        check(reply.plan, world)
         if not reply.plan.nodes:
             assert reply.plan.complete
             assert all(holds(g, world) for g in goals)

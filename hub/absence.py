@@ -5,7 +5,6 @@ from math import hypot
 
 from hub.floor import inside
 from hub.fusion import CLOSE_M, Fusion, Source
-from hub.kinds import shape
 from hub.records import Sight, Thing
 from wire.messages.observation import Absence, ObservationBatch, View
 
@@ -55,7 +54,7 @@ class Absences:
 
     def _expected(self, thing: Thing, view: View, source: Source, stamp_s: float, reach: float) -> bool:
         """Whether a source that looked this way would surely have noticed the thing."""
-        if thing.locked or shape(thing.type).kind != "pickup" or stamp_s - thing.stamp_s < 1.0:
+        if thing.locked or thing.shape.kind != "pickup" or stamp_s - thing.stamp_s < 1.0:
             return False
         if thing.xx > _SURE_M2 or thing.yy > _SURE_M2:
             return False
@@ -85,7 +84,7 @@ class Absences:
         if source.robot and sight.absent_looks == _OVERRIDE_LOOKS:
             self._override(thing, stamp_s)
         self._things.touch(thing)
-        if thing.belief < _FORGET and shape(thing.type).kind != "static":
+        if thing.belief < _FORGET and thing.shape.kind != "static":
             self._things.remove(thing)
 
     def _override(self, thing: Thing, stamp_s: float) -> None:

@@ -1,6 +1,5 @@
 """Which thing is it that a source sees? Gates of covariance and type; later, which two things are one."""
 
-from hub.kinds import shape
 from hub.records import Thing
 from hub.things import Things
 from wire.messages.observation import ObjectObservation
@@ -45,14 +44,14 @@ def find(things: Things, seen: ObjectObservation, source: str, stamp_s: float, m
 def type_penalty(thing: Thing, type: str) -> float:
     if thing.type == type:
         return 0.0
-    return _CONFUSED if type in shape(thing.type).confusable else GATE
+    return _CONFUSED if type in thing.shape.confusable else GATE
 
 
 def distance_2(thing: Thing, seen: ObjectObservation, stamp_s: float) -> float:
     """Squared Mahalanobis distance between where a thing is believed to be and where it is seen."""
     x, y, z = seen.position_enu_m
     rxx, rxy, ryy, rzz = seen.covariance_m2
-    known = shape(thing.type)
+    known = thing.shape
     extra = known.gate_m2 + known.walk_m2_per_s * max(stamp_s - thing.stamp_s, 0.0)
     sxx, sxy, syy = thing.xx + rxx + extra, thing.xy + rxy, thing.yy + ryy + extra
     dx, dy, dz = x - thing.x, y - thing.y, z - thing.z
@@ -91,7 +90,7 @@ def _one(a: Thing, b: Thing) -> bool:
         a.distinct.add(b.id)
         b.distinct.add(a.id)
         return False
-    extra = shape(a.type).gate_m2
+    extra = a.shape.gate_m2
     sxx, sxy, syy = a.xx + b.xx + extra, a.xy + b.xy, a.yy + b.yy + extra
     dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
     plane = (syy * dx * dx - 2.0 * sxy * dx * dy + sxx * dy * dy) / (sxx * syy - sxy * sxy)

@@ -2,7 +2,7 @@
 
 from math import hypot
 
-from hub.kinds import Shape, shape
+from hub.kinds import Shape
 from hub.records import Thing
 from hub.things import Things
 from wire.catalogue import catalogue
@@ -18,7 +18,7 @@ _LEAST = 0.35
 
 def parent_of(thing: Thing, things: Things) -> str | None:
     """The receptacle that a small thing most probably rests in or on."""
-    known = shape(thing.type)
+    known = thing.shape
     if known.kind not in ("pickup", "moveable") or (known.kind == "moveable" and known.half_diagonal_m > 0.75):
         return None
     bottom_m = thing.z - known.height_m / 2.0
@@ -34,7 +34,7 @@ def parent_of(thing: Thing, things: Things) -> str | None:
 
 def _fit(thing: Thing, known: Shape, bottom_m: float, other: Thing) -> float:
     """0 to 1: how well the thing's place suits this receptacle."""
-    holder = shape(other.type)
+    holder = other.shape
     if holder.receptacle_mode is None or holder.half_diagonal_m < 0.9 * known.half_diagonal_m:
         return 0.0
     away = hypot(thing.x - other.x, thing.y - other.y) / holder.half_diagonal_m
@@ -68,7 +68,7 @@ def _height_fit(bottom_m: float, middle_m: float, other: Thing, holder: Shape) -
 
 def must_be_open(thing: Thing) -> bool:
     """Whether what is in it can be seen and reached only while it is open."""
-    known = shape(thing.type)
+    known = thing.shape
     return known.encloses and known.must_open
 
 

@@ -8,7 +8,6 @@ from math import inf
 
 from hub import association
 from hub.facts import claim
-from hub.kinds import shape
 from hub.records import Fact, Sight, Thing
 from hub.things import Things
 from hub.trust import Trust
@@ -23,6 +22,8 @@ _HEARSAY = 16.0
 _TRACK_GATE = 16.0
 _FLOOR_M2 = {"robot": 0.02**2, "cctv": 0.05**2, "device": 0.05**2}
 """Errors of one source repeat from picture to picture: no number of them makes the place surer than this."""
+_KNOWN_HITS, _REPEATED = 4, 3.0
+"""One more look at what has been seen this often counts with variances so many times larger, unless it has moved."""
 _STEP = {"robot": 1.7, "cctv": 0.8, "device": 2.0}
 _CAP = {"robot": 4.2, "cctv": 2.4, "device": 3.0}
 
@@ -114,7 +115,7 @@ class Fusion:
             thing.id in self.things.by_id
             and not thing.locked
             and thing.type == seen.type
-            and shape(thing.type).kind != "static"
+            and thing.shape.kind != "static"
             and seen.confidence >= 0.5
         )
 
@@ -131,7 +132,7 @@ class Fusion:
         """Inverse-covariance fusion of one look (a Kalman step); False when it cannot be of this thing."""
         x, y, z = seen.position_enu_m
         rxx, rxy, ryy, rzz = seen.covariance_m2
-        known = shape(thing.type)
+        known = thing.shape
         type_same = seen.type == thing.type
         if not type_same and gate != inf and seen.type not in known.confusable:
             return False
@@ -149,6 +150,9 @@ class Fusion:
         wxx, wyy = sxx + wide, syy + wide
         if wyy * dx * dx - 2.0 * sxy * dx * dy + wxx * dy * dy > gate * (wxx * wyy - sxy * sxy):
             return False
+        if thing.hits > _KNOWN_HITS and dx * dx + dy * dy < 4.0 * rxx:
+            rxx, rxy, ryy, rzz = _REPEATED * rxx, _REPEATED * rxy, _REPEATED * ryy, _REPEATED * rzz
+            sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy
         if source.robot:
             if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
                 pxx, pyy, pzz = max(pxx, 4.0 * rxx), max(pyy, 4.0 * ryy), max(pzz, 4.0 * rzz)
@@ -219,14 +223,14 @@ class Fusion:
         votes = thing.votes
         votes[type] = total = votes.get(type, 0.0) + weight
         if type != thing.type and total > votes.get(thing.type, 0.0):
-            thing.type = type
+            thing.retype(type)
             thing.version += 1
 
     def _first_hand(self, thing: Thing, seen: ObjectObservation, stamp_s: float, origin: Vec3 | None) -> None:
         if origin is None or seen.confidence < 0.5:
             return
         x, y, _ = seen.position_enu_m
-        if (x - origin[0]) ** 2 + (y - origin[1]) ** 2 > (CLOSE_M + shape(thing.type).half_diagonal_m) ** 2:
+        if (x - origin[0]) ** 2 + (y - origin[1]) ** 2 > (CLOSE_M + thing.shape.half_diagonal_m) ** 2:
             return
         if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
             self._judge(thing, stamp_s)

@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+from hub.kinds import shape
+
 Kind = Literal["cctv", "robot", "device"]
 
 
@@ -70,6 +72,7 @@ class Thing:
         "placed_z",
         "receptacle",
         "room",
+        "shape",
         "shown",
         "shown_confidence",
         "shown_stamp_s",
@@ -94,7 +97,7 @@ class Thing:
 
     def __init__(self, id: str, type: str, position_m: tuple[float, float, float], stamp_s: float) -> None:
         self.id = id
-        self.type = type
+        self.retype(type)
         self.votes: dict[str, float] = {}
         self.x, self.y, self.z = position_m
         self.xx = self.yy = self.zz = 1.0
@@ -128,6 +131,10 @@ class Thing:
         self.shown_x = self.shown_y = self.shown_z = 1e9
         self.placed_x = self.placed_y = self.placed_z = 1e9
         """Where it was when its room and receptacle were last worked out."""
+
+    def retype(self, type: str) -> None:
+        self.type = type
+        self.shape = shape(type)
 
 
 PRIOR = -1.2

@@ -2,7 +2,6 @@
 
 from math import exp
 
-from hub.kinds import shape
 from hub.records import Thing
 from wire.messages.world import ObjectState, PropertyState
 
@@ -18,7 +17,7 @@ def confidence(thing: Thing, now_s: float) -> float:
     if thing.locked:
         return likely
     age_s = now_s - thing.stamp_s
-    return likely * 0.5 ** (age_s / shape(thing.type).half_life_s) if age_s > 1.0 else likely
+    return likely * 0.5 ** (age_s / thing.shape.half_life_s) if age_s > 1.0 else likely
 
 
 def due(thing: Thing, now_s: float) -> bool:

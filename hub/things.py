@@ -1,7 +1,7 @@
 """The set of things, found by id or by place."""
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from math import floor
 
 from hub.records import Thing
@@ -79,13 +79,16 @@ class Things:
             thing.cell = cell
             self._cells.setdefault(cell, []).append(thing)
 
-    def near(self, x: float, y: float, radius_m: float) -> Iterable[Thing]:
+    def near(self, x: float, y: float, radius_m: float) -> list[Thing]:
         """Things in the cells that a circle touches (some lie outside of it)."""
         low_x, high_x = floor((x - radius_m) / _CELL_M), floor((x + radius_m) / _CELL_M)
         low_y, high_y = floor((y - radius_m) / _CELL_M), floor((y + radius_m) / _CELL_M)
+        cells, found = self._cells, []
         for ix in range(low_x, high_x + 1):
-            for iy in range(low_y, high_y + 1):
-                yield from self._cells.get(ix * _STRIDE + iy, ())
+            for cell in range(ix * _STRIDE + low_y, ix * _STRIDE + high_y + 1):
+                if cell in cells:
+                    found += cells[cell]
+        return found
 
 
 def _cell(x: float, y: float) -> int:

@@ -8,7 +8,6 @@ from hub.facts import claim, settle
 from hub.fleet import Fleet, Robot
 from hub.floor import FloorPlan
 from hub.fusion import Fusion
-from hub.kinds import shape
 from hub.records import Fact, Thing
 from hub.showing import due, show, state
 from hub.things import Things
@@ -19,7 +18,9 @@ from wire.messages.observation import ObjectObservation, ObservationBatch
 from wire.messages.world import WorldDelta, WorldState
 from wire.site import Site
 
-_PLACED_M = 0.05
+_PLACED_M = 0.09
+_RESETTLED_M = 0.15
+"""Furniture that is believed this far from where it was has its neighbours' parents worked out again."""
 _SWEEP_S = 5.0
 _MERGE_S = 1.0
 _TENTATIVE_S = 20.0
@@ -157,6 +158,7 @@ class World:
     def _locate(self, thing: Thing) -> None:
         """Room and parent from the believed place, for what nobody has put there knowingly."""
         self.things.settle(thing)
+        far = abs(thing.x - thing.placed_x) + abs(thing.y - thing.placed_y) > _RESETTLED_M
         thing.placed_x, thing.placed_y, thing.placed_z = thing.x, thing.y, thing.z
         room = self.floor.room_at(thing.x, thing.y)
         parent = thing.receptacle if thing.locked else parent_of(thing, self.things)
@@ -164,10 +166,10 @@ class World:
             thing.room, thing.receptacle = room, parent
             thing.version += 1
             self._locks_due = True
-        if shape(thing.type).receptacle_mode is not None:
+        if far and thing.shape.receptacle_mode is not None:
             for other in self.things.near(thing.x, thing.y, 1.7):
-                if other is not thing and shape(other.type).kind != "static" and not other.locked:
-                    other.placed_x = 1e9 if other.type != thing.type else other.placed_x
+                if other is not thing and other.shape.kind != "static" and not other.locked:
+                    other.placed_z = 1e9  # to be worked out again, without passing it on
                     self.things.touch(other)
 
     def lock(self) -> None:

@@ -47,8 +47,9 @@ class Absences:
         """Things that stood in plain view of a source and were not in its picture."""
         x, y, _ = view.origin_enu_m
         reach = min(view.range_m, CLOSE_M if source.robot else 8.0)
-        for thing in self._things.near(x, y, reach):
-            if thing.mark == mark or not self._expected(thing, view, source, stamp_s, reach):
+        near = self._things.near(x, y, reach) if source.robot else source.tracks.values()
+        for thing in [t for t in near if t.mark < mark]:
+            if not self._expected(thing, view, source, stamp_s, reach):
                 continue
             self._deny(thing, source, stamp_s, _UNSEEN[source.kind])
 

@@ -38,19 +38,32 @@ class Areas:
     def __init__(self, rooms: tuple[Room, ...]) -> None:
         self._areas = [_lay(room) for room in rooms]
         self._by_id = {area.room.id: area for area in self._areas}
+        self._fixed: dict[str, tuple[Vec2, ...]] = {}
+        """The view of every fixed camera: painted once, as long as it stays the same."""
 
     def take(self, batch: ObservationBatch) -> None:
         """Paint what a picture showed."""
         view = batch.view
         if view is None or len(view.polygon_m) < 3:
             return
+        if batch.kind == "cctv":
+            if self._fixed.get(batch.source) == view.polygon_m:
+                self._stamp(batch)
+                return
+            self._fixed[batch.source] = view.polygon_m
         left, right = min(p[0] for p in view.polygon_m), max(p[0] for p in view.polygon_m)
         low, high = min(p[1] for p in view.polygon_m), max(p[1] for p in view.polygon_m)
         for area in self._areas:
             width, height = area.columns * CELL_M, len(area.rows) * CELL_M
             if right < area.x_m or low > area.y_m + height or left > area.x_m + width or high < area.y_m:
+                area.cameras.pop(batch.source, None)
                 continue
             self._paint(area, paint(view.polygon_m, area.x_m, area.y_m, area.columns, len(area.rows)), batch)
+
+    def _stamp(self, batch: ObservationBatch) -> None:
+        for area in self._areas:
+            if batch.source in area.cameras:
+                area.stamp_s, area.source, area.touched = batch.stamp_s, batch.source, True
 
     def _paint(self, area: _Area, mask: list[int], batch: ObservationBatch) -> None:
         mask = [m & r for m, r in zip(mask, area.rows, strict=True)]

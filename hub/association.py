@@ -13,6 +13,7 @@ _CONFUSED = 5.0
 """A match across two types that look alike costs this much of the gate."""
 _LIVE_S = 3.0
 _MERGE_GATE = 6.0
+_MERGE_M = 0.9
 _HEIGHT_M2 = 0.05**2
 
 
@@ -67,7 +68,7 @@ def duplicates(things: Things) -> list[tuple[Thing, Thing]]:
     for thing in list(things):
         if thing.id in gone:
             continue
-        for other in things.near(thing.x, thing.y, 1.0):
+        for other in things.near(thing.x, thing.y, _MERGE_M):
             if other.id <= thing.id or other.id in gone or not _one(thing, other):
                 continue
             keep, drop = (thing, other) if _rank(thing) >= _rank(other) else (other, thing)
@@ -83,6 +84,9 @@ def _rank(thing: Thing) -> tuple[bool, bool, int, str]:
 
 
 def _one(a: Thing, b: Thing) -> bool:
+    dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
+    if dx * dx + dy * dy > _MERGE_M * _MERGE_M:
+        return False
     penalty = type_penalty(a, b.type)
     if penalty >= GATE or a.locked or b.locked or b.id in a.distinct or a.receptacle == b.id or b.receptacle == a.id:
         return False
@@ -92,7 +96,6 @@ def _one(a: Thing, b: Thing) -> bool:
         return False
     extra = a.shape.gate_m2
     sxx, sxy, syy = a.xx + b.xx + extra, a.xy + b.xy, a.yy + b.yy + extra
-    dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
     plane = (syy * dx * dx - 2.0 * sxy * dx * dy + sxx * dy * dy) / (sxx * syy - sxy * sxy)
     return plane + dz * dz / (a.zz + b.zz + _HEIGHT_M2 + extra) + penalty < _MERGE_GATE
 

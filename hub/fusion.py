@@ -166,12 +166,14 @@ class Fusion:
         c, d = (pxy * syy - pyy * sxy) / det, (pyy * sxx - pxy * sxy) / det
         thing.x += a * dx + b * dy
         thing.y += c * dx + d * dy
-        thing.xx = max(pxx - a * pxx - b * pxy, floor)
-        thing.xy = pxy - a * pxy - b * pyy
-        thing.yy = max(pyy - c * pxy - d * pyy, floor)
+        pxx, pxy, pyy = pxx - a * pxx - b * pxy, pxy - a * pxy - b * pyy, pyy - c * pxy - d * pyy
+        thing.xx = pxx if pxx > floor else floor
+        thing.xy = pxy
+        thing.yy = pyy if pyy > floor else floor
         k = pzz / (pzz + rzz)
         thing.z += k * dz
-        thing.zz = max(pzz - k * pzz, floor)
+        pzz -= k * pzz
+        thing.zz = pzz if pzz > floor else floor
         self._credit(thing, seen, source, stamp_s, type_same)
         thing.mark = mark
         if stamp_s >= thing.stamp_s:

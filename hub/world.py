@@ -151,9 +151,11 @@ class World:
         if abs(thing.x - thing.placed_x) + abs(thing.y - thing.placed_y) + abs(thing.z - thing.placed_z) > _PLACED_M:
             self._locate(thing)
         for name, fact in thing.facts.items():
+            before = fact.value
             if settle(fact, now_s, self.trust, self._robots):
                 thing.version += 1
-                self._locks_due = self._locks_due or name == "isOpen"
+                if name == "isOpen" and fact.value != before:
+                    self._locks_due = True
 
     def _locate(self, thing: Thing) -> None:
         """Room and parent from the believed place, for what nobody has put there knowingly."""

@@ -16,6 +16,8 @@ from wire.site import Site
 
 M = TypeVar("M", bound=Message)
 ClientError = MeshError
+_PATIENCE_S = 20.0
+"""A simulated mesh on a busy machine moves on slowly; a terminal can wait for it."""
 _QUIET_S = 2.0
 """Without news for this long, a waiting command asks again: a publication may have been missed."""
 
@@ -60,7 +62,7 @@ class Client:
         """Ask and wait. Requests are idempotent, so that a lost answer is asked for again. Raises ClientError."""
         error = ""
         for _ in range(tries):
-            number = self._node.ask(service, request, id)
+            number = self._node.ask(service, request, id, _PATIENCE_S)
             while True:
                 for event in self._collect():
                     if isinstance(event, Reply) and event.ask == number:

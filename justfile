@@ -109,7 +109,7 @@ home *args: install
 # measure what the machine does: fusion, latency, physics, cameras, memory, presence (--json)
 [group('measure')]
 perf *args: install
-    {{ python }} -m console perf "$@"
+    {{ python }} -m bench.perf "$@"
 
 # the embedded detector's precision, recall, position error and state accuracy on held-out houses
 [group('measure')]

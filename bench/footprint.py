@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from bench.lockstep import without_vision
 from console.bring_up import bring_up
 from console.places import free_port, generate_home
 
@@ -46,7 +47,23 @@ def measure(seed: int = 7) -> dict[str, Any]:
             ]
         finally:
             ready.mesh.stop()
-    return {"processes": rows, "announced_s": round(ready.took_s, 2), "count": len(rows)}
+    return {"processes": rows, "announced_s": round(ready.took_s, 2), "count": len(rows), **measure_light()}
+
+
+def measure_light() -> dict[str, float]:
+    """Eight processes without pictures: router, simulator, hub, planner and four robots that walk by lidar."""
+    with TemporaryDirectory(prefix="r2x-footprint-") as folder:
+        site_file = generate_home(
+            1, Path(folder) / "site.toml", "--name", "light", "--port", str(free_port()), "--robots", "4", "--no-cctv"
+        )
+        site_file.write_text(without_vision(site_file.read_text()))
+        ready = bring_up(site_file, quiet=True)
+        try:
+            time.sleep(2.0)
+            robots = [resident_mb(p.pid) for p in ready.mesh.processes() if p.id.startswith("dog")]
+        finally:
+            ready.mesh.stop()
+    return {"eight_announced_s": round(ready.took_s, 2), "robot_without_vision_mb": round(max(robots), 1)}
 
 
 def main() -> None:

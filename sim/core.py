@@ -125,7 +125,7 @@ def build(site: Site, process_id: str) -> SimCore:
         raise SiteError(f"{site.name}: {process_id} needs a [sim] table; add one with a seed")
     scene = make_home(site.sim.seed)
     try:
-        renderer = make_renderer(scene, site.sim.renderer, parts)
+        renderer = None if site.sim.renderer == "none" else make_renderer(scene, site.sim.renderer, parts)
     except RenderError as error:
         raise CannotRun(str(error)) from error
     return SimCore(site, scene, make_task(scene, site.sim.seed), renderer)

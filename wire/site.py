@@ -105,7 +105,8 @@ class Sim(Message):
     seed: int = Field(ge=0)
     smart_appliances: bool = False
     legs: bool = False
-    renderer: Literal["auto", "gl", "bullet"] = "auto"
+    renderer: Literal["auto", "gl", "bullet", "none"] = "auto"
+    """`none`: no pictures at all, for robots that walk by lidar."""
     fault: tuple[Fault, ...] = ()
 
 

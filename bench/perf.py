@@ -1,0 +1,144 @@
+"""`./justw perf`: everything that is promised of speed and memory, measured in one run, beside its target.
+
+Each measurement is a module of its own that prints JSON; this runs them one after the other, compares, and writes
+out/perf/perf.json and out/perf/perf.png. A missed target is reported, never hidden; the exit code stays 0, because a
+busy machine is no fault of the code.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bench.plot import draw_rows
+
+OUT = Path("out/perf")
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One figure of one measurement, and what it must reach."""
+
+    name: str
+    unit: str
+    target: float
+    at_least: bool
+    read: Callable[[Json], float]
+
+
+@dataclass(frozen=True)
+class Section:
+    module: str
+    about: str
+    claims: tuple[Claim, ...]
+
+
+def _role_mb(document: Json, role: str) -> float:
+    return max(float(p["resident_mb"]) for p in document["processes"] if p["role"] == role)
+
+
+SECTIONS: tuple[Section, ...] = (
+    Section("bench.mesh", "the mesh: round trips, a burst, presence", (
+        Claim("messages lost in a burst of 200,000", "", 0, False, lambda d: d["burst"]["lost"]),
+        Claim("kill -9 noticed after", "ms", 100, False, lambda d: d["kill_noticed"]["median_ms"]),
+        Claim("a frozen process noticed after", "ms", 1000, False, lambda d: d["freeze_noticed"]["median_ms"]),
+    )),
+    Section("hub.bench_fusion", "fusion of observations", (
+        Claim("observations fused per second and core", "/s", 150_000, True, lambda d: d["observations_per_s"]),
+        Claim("fusion over decoding alone", "x", 4, False, lambda d: d["ratio"]),
+    )),
+    Section("bench.fusion_latency", "observation on the wire to world state at a subscriber", (
+        Claim("median over a bare round trip", "x", 3, False, lambda d: d["ratio"]),
+        Claim("99th percentile", "ms", 5, False, lambda d: d["observation_to_world"]["p99_ms"]),
+    )),
+    Section("sim.bench", "physics of a furnished home, one drone body and two robots", (
+        Claim("times real time", "x", 100, True, lambda d: d["compound"]["real_time_factor"]),
+        Claim("times real time with legs", "x", 15, True, lambda d: d["compound_with_legs"]["real_time_factor"]),
+    )),
+    Section("sim.render.bench", "cameras, 640x480 colour and ids", (
+        Claim("pictures per second and core", "/s", 100, True, lambda d: d["gl_pictures_per_core_s"]),
+        Claim("over PyBullet's own renderer", "x", 15, True, lambda d: d["ratio"]),
+        Claim("ids equal to PyBullet's", "%", 99.5, True, lambda d: 100.0 * d["equal_ids"]),
+    )),
+    Section("bench.lockstep", "lockstep through the mesh, six devices at 20 Hz", (
+        Claim("times real time", "x", 40, True, lambda d: d["times_real_time"]),
+    )),
+    Section("bench.footprint", "memory and start-up of the demo's mesh", (
+        Claim("hub resident", "MB", 100, False, lambda d: _role_mb(d, "hub")),
+        Claim("simulator resident", "MB", 300, False, lambda d: _role_mb(d, "sim")),
+        Claim("camera process resident", "MB", 150, False, lambda d: _role_mb(d, "cctv")),
+        Claim("eight light processes announced after", "s", 5, False, lambda d: d["eight_announced_s"]),
+        Claim("robot process without vision resident", "MB", 40, False, lambda d: d["robot_without_vision_mb"]),
+    )),
+    Section("bench.pixels", "the demo mesh with pixel perception", (
+        Claim("times real time", "x", 2, True, lambda d: d["times_real_time"]),
+    )),
+)  # fmt: skip
+
+
+def run_section(section: Section) -> Json:
+    """The JSON that a measurement prints, or what went wrong."""
+    began = time.monotonic()
+    done = subprocess.run([sys.executable, "-m", section.module, "--json"], capture_output=True, text=True, check=False)
+    took_s = round(time.monotonic() - began, 1)
+    if done.returncode != 0:
+        return {"error": done.stderr.strip().splitlines()[-1:] or ["no output"], "took_s": took_s}
+    text = done.stdout[done.stdout.index("{") :]
+    document: Json = json.loads(text)
+    return {**document, "took_s": took_s}
+
+
+def judge(section: Section, document: Json) -> list[Json]:
+    """One row for each claim: value, target, met."""
+    if "error" in document:
+        return [{"name": c.name, "error": document["error"], "met": False} for c in section.claims]
+    rows = []
+    for claim in section.claims:
+        value = float(claim.read(document))
+        met = value >= claim.target if claim.at_least else value <= claim.target
+        rows.append(
+            {"name": claim.name, "unit": claim.unit, "value": round(value, 3), "target": claim.target,
+             "at_least": claim.at_least, "met": met}
+        )  # fmt: skip
+    return rows
+
+
+def _line(row: Json) -> str:
+    if "error" in row:
+        return f"    FAILED  {row['name']}: {row['error'][0][:120]}"
+    sign = ">=" if row["at_least"] else "<="
+    return f"  {'ok' if row['met'] else 'MISSED':>8}  {row['name']}: {row['value']:g} {row['unit']} (target {sign} {row['target']:g})"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", action="store_true", help="print the JSON document instead of lines")
+    parser.add_argument("--only", default="", help="only the measurements whose module contains this")
+    arguments = parser.parse_args()
+    report: Json = {}
+    for section in SECTIONS:
+        if arguments.only not in section.module:
+            continue
+        if not arguments.json:
+            print(f"{section.about} ({section.module})", flush=True)
+        document = run_section(section)
+        rows = judge(section, document)
+        report[section.module] = {"about": section.about, "claims": rows, "measured": document}
+        if not arguments.json:
+            print("\n".join(map(_line, rows)), flush=True)
+    OUT.mkdir(parents=True, exist_ok=True)
+    (OUT / "perf.json").write_text(json.dumps(report, indent=2, sort_keys=True) + "\n")
+    draw_rows([row for entry in report.values() for row in entry["claims"]], OUT / "perf.png")
+    print(
+        json.dumps(report, indent=2, sort_keys=True) if arguments.json else f"wrote {OUT}/perf.json and {OUT}/perf.png"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -9,9 +9,11 @@ from devices.quadruped.map import CELL_M, FloorMap, Mask
 from devices.quadruped.path import NEEDED_M
 from wire.model import Vec2
 
-SEEN = 2.0
-"""A measured surface settles a place at once; being in view without one, from two places."""
-NEAR_M, FAR_M = 0.5, 4.0
+SEEN, GLANCED = 3.0, 1.0
+"""A measured surface settles a place at once; being in view without one, in three pictures."""
+CLEAR_VIEW = 0.85
+"""At the sides of a picture things are cut off."""
+NEAR_M, FAR_M = 0.5, 3.0
 RAY_GAP_RAD = 0.03
 LATTICE_M = 0.5
 WALK_PRICE_PER_M = 0.04
@@ -32,13 +34,18 @@ class Coverage:
         self._cells = max(1, int(self._room.sum()))
 
     @property
+    def area_m2(self) -> float:
+        """Of the whole room."""
+        return self._cells * CELL_M**2
+
+    @property
     def left(self) -> float:
         """Share of the room that nobody has looked at."""
         return float((self._room & (self._score < SEEN)).sum()) / self._cells
 
     def take(self, look: Look) -> None:
         """One picture more."""
-        self._score[self._in_view(look.camera_m, look.yaw_rad, look.hfov_rad)] += 1.0
+        self._score[self._in_view(look.camera_m, look.yaw_rad, CLEAR_VIEW * look.hfov_rad)] += GLANCED
         if len(look.surface_m):
             around = (look.surface_m[:, None, :2] + _AROUND_M).reshape(-1, 2)
             self._score[self._floor.cells_of(around)] = SEEN

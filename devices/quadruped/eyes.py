@@ -26,7 +26,7 @@ HAND_FROM_CAMERA_M, HAND_BELOW_CAMERA_M = 0.32, 0.56
 LOAD_M, TOO_NEAR_M = 0.4, 0.5
 """While something is carried, what is this near to the hand or to the camera is the load."""
 EVERY_PX = 8
-FARTHEST_M = 6.0
+FARTHEST_M = 3.2
 
 
 class PictureEyes:

@@ -6,7 +6,7 @@ from math import pi
 from typing import TypeVar
 
 from devices.quadruped import places
-from devices.quadruped.coverage import Coverage
+from devices.quadruped.coverage import CLEAR_VIEW, Coverage
 from devices.quadruped.gaze import look_around, look_at, take_pictures
 from devices.quadruped.handle import GATE_M
 from devices.quadruped.look import Thing
@@ -21,10 +21,10 @@ from wire.messages.command import Command
 from wire.model import Id, Message, Vec2, Word
 from wire.site import Room
 
-ENOUGH_LEFT = 0.06
-"""The room has been seen when no more than this share is left."""
-WORTH_A_LOOK, WORTH_A_WALK = 0.03, 0.04
-MOST_PLACES, MOST_HEADINGS, HEADINGS = 4, 6, 12
+ENOUGH_LEFT_M2 = 0.4
+"""The room has been seen when no more of it than this is left: less than what a fridge stands on."""
+WORTH_A_LOOK_M2, WORTH_A_WALK_M2 = 0.3, 0.5
+MOST_PLACES, MOST_HEADINGS, HEADINGS = 5, 7, 12
 SEARCH_TILT_RAD = 0.42
 """The picture then reaches from the floor 0.7 m ahead to things above the camera's own height."""
 SURE_AT_ONCE, SURE_TWICE, SAME_PLACE_M = 0.85, 0.5, 0.6
@@ -98,11 +98,12 @@ def explore(robot: Robot, command: Command) -> Skilled:
     yield from await_odometry(body)
     finder = Finder(robot, room, command.looking_for)
     places_m: list[Vec2] = []
-    while finder.coverage.left > ENOUGH_LEFT and len(places_m) < MOST_PLACES:
+    area_m2 = finder.coverage.area_m2
+    while finder.coverage.left * area_m2 > ENOUGH_LEFT_M2 and len(places_m) < MOST_PLACES:
         body.note = f"looking through {room.name}, {finder.coverage.left:.0%} left"
         body.fraction = 1.0 - finder.coverage.left
         best = finder.coverage.best_place(body.position_m, places_m)
-        if best is None or (places_m and best[1] < WORTH_A_WALK):
+        if best is None or (places_m and best[1] * area_m2 < WORTH_A_WALK_M2):
             break
         place_m = best[0]
         body.tilt(SEARCH_TILT_RAD)
@@ -124,9 +125,9 @@ def _look_round(robot: Robot, finder: Finder) -> Generator[None, None, None]:
     body = robot.body
     for _ in range(MOST_HEADINGS):
         yaws = [body.yaw_rad + 2.0 * pi * k / HEADINGS for k in range(HEADINGS)]
-        gains = [finder.coverage.gain(body.position_m, yaw, HFOV_RAD) for yaw in yaws]
+        gains = [finder.coverage.gain(body.position_m, yaw, CLEAR_VIEW * HFOV_RAD) for yaw in yaws]
         best = max(range(HEADINGS), key=lambda k: (gains[k] - 0.01 * min(k, HEADINGS - k), -k))
-        if gains[best] < WORTH_A_LOOK:
+        if gains[best] * finder.coverage.area_m2 < WORTH_A_LOOK_M2:
             return
         yield from face(body, yaws[best])
         yield from take_pictures(body, 1)

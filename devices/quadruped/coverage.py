@@ -11,7 +11,7 @@ from wire.model import Vec2
 
 SEEN, GLANCED = 3.0, 1.0
 """A measured surface settles a place at once; being in view without one, in three pictures."""
-CLEAR_VIEW = 0.85
+CLEAR_VIEW = 0.75
 """At the sides of a picture things are cut off."""
 NEAR_M, FAR_M = 0.5, 3.0
 RAY_GAP_RAD = 0.03
@@ -46,8 +46,12 @@ class Coverage:
     def take(self, look: Look) -> None:
         """One picture more."""
         self._score[self._in_view(look.camera_m, look.yaw_rad, CLEAR_VIEW * look.hfov_rad)] += GLANCED
-        if len(look.surface_m):
-            around = (look.surface_m[:, None, :2] + _AROUND_M).reshape(-1, 2)
+        away = look.surface_m[:, :2] - np.array(look.camera_m, np.float32)
+        off_rad = np.arctan2(away[:, 1], away[:, 0]) - look.yaw_rad
+        off_rad = (off_rad + np.pi) % (2.0 * np.pi) - np.pi
+        clear_m = look.surface_m[np.abs(off_rad) < CLEAR_VIEW * look.hfov_rad / 2.0, :2]
+        if len(clear_m):
+            around = (clear_m[:, None] + _AROUND_M).reshape(-1, 2)
             self._score[self._floor.cells_of(around)] = SEEN
 
     def gain(self, camera_m: Vec2, yaw_rad: float, hfov_rad: float = 2.0 * np.pi) -> float:

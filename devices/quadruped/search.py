@@ -27,7 +27,8 @@ WORTH_A_LOOK_M2, WORTH_A_WALK_M2 = 0.3, 0.5
 MOST_PLACES, MOST_HEADINGS, HEADINGS = 5, 7, 12
 SEARCH_TILT_RAD = 0.42
 """The picture then reaches from the floor 0.7 m ahead to things above the camera's own height."""
-SURE_AT_ONCE, SURE_TWICE, SAME_PLACE_M = 0.85, 0.5, 0.6
+SURE_AT_ONCE, SURE_TOGETHER, WORTH_COUNTING, SAME_PLACE_M = 0.8, 1.2, 0.35, 0.6
+"""One picture that is sure, or several of the same place whose confidences add up."""
 HFOV_RAD = pi / 2.0
 SMALL_M, SMALL_VIEW_M, LARGE_VIEW_M = 0.35, (0.8, 1.6), (1.0, 2.2)
 
@@ -79,14 +80,16 @@ class Finder:
         cell = self._body.floor.cell(thing.position_enu_m[:2])
         if thing.type not in self._looking_for or not self._inside[cell.row, cell.column]:
             return
-        before = any(
-            other.type == thing.type and distance_m(other.position_enu_m, thing.position_enu_m) < SAME_PLACE_M
+        if thing.confidence < WORTH_COUNTING:
+            return
+        self._candidates.append(thing)
+        agreeing = sum(
+            other.confidence
             for other in self._candidates
+            if other.type == thing.type and distance_m(other.position_enu_m, thing.position_enu_m) < SAME_PLACE_M
         )
-        if thing.confidence >= (SURE_TWICE if before else SURE_AT_ONCE):
+        if thing.confidence >= SURE_AT_ONCE or agreeing >= SURE_TOGETHER:
             self.found = self.found or thing
-        elif thing.confidence >= SURE_TWICE:
-            self._candidates.append(thing)
 
 
 def explore(robot: Robot, command: Command) -> Skilled:

@@ -188,7 +188,7 @@ def test_looking_covers_the_room_once() -> None:
     assert coverage.left == 1.0
     surfaces = np.array([(x, y, 0.0) for x in np.arange(0.1, 4.0, 0.1) for y in np.arange(0.1, 2.0, 0.1)], np.float32)
     before = coverage.gain((2.0, 2.0), 0.0)
-    coverage.take(Look(1.0, (2.0, 2.0), 0.0, pi / 2.0, (), surfaces))
+    coverage.take(Look(1.0, (2.0, 2.0), 0.0, 2.7 * pi, (), surfaces))
     assert 0.4 < coverage.left < 0.6
     assert coverage.gain((2.0, 2.0), 0.0) < before
     best = coverage.best_place((2.0, 1.0), [])

@@ -8,7 +8,12 @@ from wire.process import main
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--journal", type=Path, default=None, help="SQLite file that a restarted hub goes on from")
+    parser.add_argument(
+        "--journal",
+        type=Path,
+        default=None,
+        help="what a restarted hub goes on from; <id>.sqlite in the state folder of the site by default",
+    )
 
 
 if __name__ == "__main__":

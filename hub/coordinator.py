@@ -20,7 +20,7 @@ from wire.messages.driver import DeviceReport
 from wire.messages.observation import ObservationBatch
 from wire.messages.plan import PlanReply
 from wire.model import Vec2
-from wire.site import Site
+from wire.site import Site, state_dir
 
 _DELTA_S = 0.1
 _TRAFFIC_S = 0.2
@@ -45,6 +45,7 @@ class Coordinator:
         self._due = {"delta": 0.0, "traffic": 0.0, "snapshot": 0.0, "state": 0.0}
         self._now_s = 0.0
         self._orders = 0
+        self._restored = False
 
     def start(self, node: Node) -> None:
         self._node = node
@@ -59,10 +60,6 @@ class Coordinator:
         voice.on_refused = self._refused
         voice.on_goals = self._goals
         voice.on_card = self._card
-        remembered = self._journal.read("world")
-        if remembered is not None:
-            read_world(self.world, remembered)
-        self._desk.restore()
         for topic in ("observation", "device_report", "robot_report", "result"):
             node.subscribe(topic)
         for service in ("snapshot", "task", "task_query", "control", "why"):
@@ -70,6 +67,9 @@ class Coordinator:
         node.watch_presence()
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
+        if not self._restored:
+            self._restored = True
+            self._restore(now_s)
         self._now_s = now_s
         for event in events:
             self._hear(event, now_s)
@@ -95,6 +95,12 @@ class Coordinator:
 
     def stop(self) -> None:
         self._journal.close()
+
+    def _restore(self, now_s: float) -> None:
+        """Go on from the journal: the tasks, and with an unfinished one the world as it was believed."""
+        remembered = self._journal.read("world")
+        if self._desk.restore(now_s) and remembered is not None:
+            read_world(self.world, remembered)
 
     def _is_due(self, what: str, period_s: float, now_s: float) -> bool:
         if now_s < self._due[what] - _EARLY_S:
@@ -200,5 +206,5 @@ class Coordinator:
 
 
 def build(site: Site, process_id: str, journal: Path | None = None) -> Coordinator:
-    """The hub of a site; without a path its journal is kept in memory and dies with the process."""
-    return Coordinator(site, process_id, Journal(journal))
+    """The hub of a site, with its journal in the site's state folder if not told otherwise."""
+    return Coordinator(site, process_id, Journal(journal or state_dir(site) / f"{process_id}.sqlite"))

@@ -12,6 +12,8 @@ from wire.bus import Request
 from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState, WhyRequest
 from wire.messages.world import SnapshotRequest
 
+_CLOCK_S = 1.0
+
 
 class Desk:
     """The tasks in the order in which they came, and the answers to requests."""
@@ -20,12 +22,19 @@ class Desk:
         self._world, self._conductor, self._journal, self._voice = world, conductor, journal, voice
         self._tasks: dict[str, Task] = {}
 
-    def restore(self) -> None:
-        """The tasks of an earlier run of the hub."""
+    def restore(self, now_s: float) -> bool:
+        """The tasks of an earlier run of the hub; True when one of them is to be gone on with.
+
+        A clock that stands before the last decision is another clock: then nothing is gone on with.
+        """
+        another = self._journal.last_s() > now_s + _CLOCK_S
         for id in json.loads(self._journal.read("tasks") or "[]"):
             text = self._journal.read(f"task/{id}")
             if text is not None:
-                self._tasks[id] = read_task(text)
+                task = self._tasks[id] = read_task(text)
+                if another and not task.ended:
+                    task.status, task.reason = "cancelled", "the mesh was started anew in between; ask again"
+        return any(not task.ended for task in self._tasks.values())
 
     def step(self, now_s: float) -> None:
         """Start the next task when none is being carried out."""

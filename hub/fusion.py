@@ -37,6 +37,7 @@ class Source:
         "floor_m2",
         "id",
         "kind",
+        "origin",
         "robot",
         "step",
         "tracks",
@@ -47,6 +48,8 @@ class Source:
         self.id, self.kind, self.robot = id, kind, kind == "robot"
         self.tracks: dict[str, Thing] = {}
         self.boot_id = ""
+        self.origin: Vec3 | None = None
+        """Where a robot looked from in the picture at hand."""
         self.floor_m2, self.step, self.cap = _FLOOR_M2[kind], _STEP[kind], _CAP[kind]
         self.weight = 3.0 if self.robot else 1.0
 
@@ -74,27 +77,20 @@ class Fusion:
             source.tracks.clear()  # a restarted source begins its names anew
         self._mark = mark = self._mark + 1
         stamp_s = batch.stamp_s
-        origin = batch.view.origin_enu_m if batch.view is not None and source.robot else None
+        source.origin = batch.view.origin_enu_m if batch.view is not None and source.robot else None
         late: list[ObjectObservation] = []
         tracks, refine = source.tracks, self._refine
         for seen in batch.objects:
             thing = tracks.get(seen.track)
-            if thing is None or thing.mark >= mark or not refine(thing, seen, source, stamp_s, mark, origin):
+            if thing is None or thing.mark >= mark or not refine(thing, seen, source, stamp_s, mark):
                 late.append(seen)
         for seen in sorted(late, key=lambda s: -s.confidence) if late else ():
-            self._associate(seen, source, stamp_s, mark, origin)
+            self._associate(seen, source, stamp_s, mark)
         if len(tracks) > 2000:
             source.tracks = {track: thing for track, thing in tracks.items() if thing.id in self.things.by_id}
         return mark
 
-    def _associate(
-        self,
-        seen: ObjectObservation,
-        source: Source,
-        stamp_s: float,
-        mark: int,
-        origin: Vec3 | None,
-    ) -> None:
+    def _associate(self, seen: ObjectObservation, source: Source, stamp_s: float, mark: int) -> None:
         thing = association.find(self.things, seen, source.id, stamp_s, mark)
         former = source.tracks.get(seen.track)
         if thing is None and former is not None and former.mark < mark and self._moved(former, seen):
@@ -107,7 +103,7 @@ class Fusion:
             thing = self.things.new(seen.type, seen.position_enu_m, stamp_s)
             _restart(thing, seen)
         source.tracks[seen.track] = thing
-        self._refine(thing, seen, source, stamp_s, mark, origin, gate=inf)
+        self._refine(thing, seen, source, stamp_s, mark, gate=inf)
 
     def _moved(self, thing: Thing, seen: ObjectObservation) -> bool:
         """Whether a source's lasting track says that a thing has moved by itself (or was carried by somebody)."""
@@ -126,7 +122,6 @@ class Fusion:
         source: Source,
         stamp_s: float,
         mark: int,
-        origin: Vec3 | None,
         gate: float = _TRACK_GATE,
     ) -> bool:
         """Inverse-covariance fusion of one look (a Kalman step); False when it cannot be of this thing."""
@@ -157,7 +152,7 @@ class Fusion:
             if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
                 pxx, pyy, pzz = max(pxx, 4.0 * rxx), max(pyy, 4.0 * ryy), max(pzz, 4.0 * rzz)
                 sxx, syy = pxx + rxx, pyy + ryy
-            self._first_hand(thing, seen, stamp_s, origin)
+            self._first_hand(thing, seen, stamp_s, source.origin)
         elif stamp_s - thing.first_hand_s < _FIRST_HAND_S:
             rxx, rxy, ryy, rzz = _HEARSAY * rxx, _HEARSAY * rxy, _HEARSAY * ryy, _HEARSAY * rzz
             sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy

@@ -50,6 +50,11 @@ class Journal:
             (float(s), str(k), str(b)) for s, k, b in self._db.execute("SELECT stamp_s, kind, body FROM log ORDER BY n")
         ]
 
+    def last_s(self) -> float:
+        """Time of the last decision; 0 when there is none."""
+        row = self._db.execute("SELECT stamp_s FROM log ORDER BY n DESC LIMIT 1").fetchone()
+        return float(row[0]) if row is not None else 0.0
+
     def next_epoch(self) -> int:
         """Count this run of the hub; devices refuse what an earlier one says."""
         epoch = int(self.read("epoch") or "-1") + 1

@@ -4,7 +4,8 @@ import random
 from collections.abc import Sequence
 from pathlib import Path
 
-from hub.coordinator import Coordinator, build
+from hub.coordinator import Coordinator
+from hub.journal import Journal
 from tests.hub.scenes import flat, seen
 from tests.hub.toys import ToyCamera, ToyPlanner, ToyRobot
 from wire.loopback import LoopbackMesh
@@ -34,7 +35,7 @@ class _Flat:
         self.hub = self.start_hub()
 
     def start_hub(self) -> Coordinator:
-        self.hub = build(self.site, "hub", self.journal)
+        self.hub = Coordinator(self.site, "hub", Journal(self.journal))
         self.mesh.add(self.hub, "hub", "hub")
         return self.hub
 

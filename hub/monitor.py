@@ -86,11 +86,12 @@ class Watch:
         x, y, holder, room, shut = made_on
         if holder in self._world.fleet.robots:
             return None
-        if thing.room != room:
+        if thing.shape.kind == "pickup" and thing.room != room:
             return f"{thing.type} {id} is now in {thing.room}"
         if hidden(thing, self._world.things) and not shut and step.node.action != "open":
             return f"{thing.type} {id} has been shut in {thing.receptacle}"
-        if step.status == "running" and abs(thing.x - x) + abs(thing.y - y) > _MOVED_M:
+        loose = thing.shape.kind == "pickup"  # furniture only comes to be seen better
+        if loose and step.status == "running" and abs(thing.x - x) + abs(thing.y - y) > _MOVED_M:
             return f"{thing.type} {id} has moved"
         return None
 

@@ -31,6 +31,11 @@ class Follower:
         self.turns = 0
 
     @property
+    def begun(self) -> int:
+        """Legs and turns on the spot so far: what is counted as actions."""
+        return self.turns + min(self._leg + 1, len(self._corners) - 1)
+
+    @property
     def left_m(self) -> tuple[Vec2, ...]:
         """Corners still ahead."""
         return tuple(self._corners[self._leg + 1 :])

@@ -119,11 +119,10 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
     """Walk along the legs; returns what is wrong when it stops early."""
     follower = Follower(body.position_m, legs_m)
     watch = _Watch(body)
-    scan_seq = turns = 0
-    body.action_steps += len(legs_m)
+    scan_seq = counted = 0
     while True:
-        body.action_steps += follower.turns - turns
-        turns = follower.turns
+        body.action_steps += follower.begun - counted
+        counted = follower.begun
         body.path_m = follower.left_m
         forward, yaw_rate = follower.steer(body.position_m, body.yaw_rad, _limit(body))
         if follower.arrived:

@@ -52,9 +52,17 @@ def install_site(path: Path) -> tuple[Site, Mesh]:
     mesh = Mesh(run_dir)
     if path.resolve() != mesh.site_file:
         shutil.copyfile(path, mesh.site_file)
+    if site.sim is not None and not mesh.is_up():
+        _forget(run_dir)
     _CURRENT.unlink(missing_ok=True)
     _CURRENT.symlink_to(run_dir.name, target_is_directory=True)
     return site, mesh
+
+
+def _forget(run_dir: Path) -> None:
+    """A simulated building starts anew with its mesh: what was remembered of the last run is not true of it."""
+    for file in run_dir.glob("*.sqlite*"):
+        file.unlink()
 
 
 def free_port() -> int:

@@ -7,14 +7,18 @@ import rerun.blueprint as rrb
 TIMELINE = "time"
 
 
-def blueprint(cameras: Sequence[str], robots: Sequence[str], centre_m: tuple[float, float]) -> rrb.Blueprint:
+def blueprint(
+    cameras: Sequence[str], robots: Sequence[str], centre_m: tuple[float, float], span_m: float
+) -> rrb.Blueprint:
     """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right."""
     x, y = centre_m
     world = rrb.Spatial3DView(
         origin="world",
         name="Fused world",
         contents=["$origin/**", *(f"- $origin/cameras/{c}/picture/**" for c in cameras)],
-        eye_controls=rrb.EyeControls3D(position=[x, y - 11.0, 15.0], look_target=[x, y, 0.0], eye_up=[0, 0, 1]),
+        eye_controls=rrb.EyeControls3D(
+            position=[x, y - 0.55 * span_m, 0.85 * span_m], look_target=[x, y, 0.0], eye_up=[0, 0, 1]
+        ),
     )
     pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *robots)]
     return rrb.Blueprint(

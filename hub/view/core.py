@@ -42,7 +42,8 @@ class ViewCore:
         xs = [x for room in self._site.room for x, _ in room.polygon_m]
         ys = [y for room in self._site.room for _, y in room.polygon_m]
         centre = ((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2)
-        layout = blueprint([c.id for c in self._site.camera], [r.id for r in self._site.robot], centre)
+        span = max(max(xs) - min(xs), max(ys) - min(ys))
+        layout = blueprint([c.id for c in self._site.camera], [r.id for r in self._site.robot], centre, span)
         self._rec.send_blueprint(layout, make_active=True)
         draw_house(self._rec, self._site)
         for topic in _TOPICS:

@@ -9,7 +9,7 @@ from wire.messages.driver import CameraFrame
 from wire.messages.observation import EventLog, ObservationBatch
 from wire.messages.operator import TaskState
 from wire.messages.plan import PlanNode, PlanState
-from wire.messages.world import ObjectState, RobotState, WorldDelta
+from wire.messages.world import ObjectState, WorldDelta
 
 _NODE_RGB = {
     "pending": (140, 140, 140),
@@ -31,6 +31,7 @@ class Drawing:
         self._objects: dict[str, ObjectState] = {}
         self._trails: dict[str, list[tuple[float, float, float]]] = {}
         self._doing: dict[str, str] = {}
+        self._robots: set[str] = set()
         self._drawn_s: dict[str, float] = {}
         self._logged: dict[str, int] = {}
 
@@ -119,7 +120,9 @@ class Drawing:
             self._objects.pop(gone, None)
         self.at(delta.stamp_s)
         for robot in delta.robots:
-            self._robot_doing(robot)
+            self._robots.add(robot.id)
+            if robot.status not in ("executing", "idle"):
+                self._show_doing(robot.id, robot.status)
         for area in delta.areas:
             self._rec.log(f"metrics/seen/{area.id}", rr.Scalars(area.seen_fraction))
         if self._due("objects", delta.stamp_s, 0.5):
@@ -139,11 +142,10 @@ class Drawing:
         )
         self._rec.log("metrics/objects_believed", rr.Scalars(float(len(known))))
 
-    def _robot_doing(self, robot: RobotState) -> None:
-        doing = robot.status if robot.goal_id is None else "executing"
-        if self._doing.get(robot.id) != doing:
-            self._doing[robot.id] = doing
-            self._rec.log(f"tasks/{robot.id}", rr.StateChange(state=doing))
+    def _show_doing(self, robot: str, doing: str) -> None:
+        if self._doing.get(robot) != doing:
+            self._doing[robot] = doing
+            self._rec.log(f"tasks/{robot}", rr.StateChange(state=doing))
 
     def plan(self, state: PlanState) -> None:
         self.at(state.stamp_s)
@@ -167,6 +169,10 @@ class Drawing:
             rr.GraphEdges(edges=[(a, n.id) for n in nodes for a in n.after], graph_type="directed"),
         )
         self._rec.log("metrics/replans", rr.Scalars(float(state.replans)))
+        labels = {n.id: self._node_label(n) for n in nodes}
+        running = {n.robot: labels[n.id] for n in state.nodes if n.status == "running" and n.robot is not None}
+        for robot in sorted(self._robots):
+            self._show_doing(robot, running.get(robot, "idle"))
 
     def _node_label(self, node: PlanNode) -> str:
         thing = self._objects.get(node.object or "")

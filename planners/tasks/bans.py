@@ -23,8 +23,8 @@ class Bans:
     """The forbidden goals, looked up in one world state."""
 
     def __init__(self, goals: Sequence[Goal], world: WorldState) -> None:
-        self._objects: dict[str, list[Goal]] = {}
-        self._places: dict[int, set[str]] = {}
+        self._objects: dict[str, list[tuple[Goal, frozenset[str]]]] = {}
+        """Thing -> the goals that restrain it, each with the places it is about."""
         self.rooms: set[str] = set()
         for goal in goals:
             if not goal.forbidden:
@@ -32,10 +32,9 @@ class Bans:
             if goal.predicate == "visited" and goal.subject.room is not None and goal.subject.type is None:
                 self.rooms.add(goal.subject.room)
                 continue
+            places = frozenset(o.id for o in select(goal.object, world)) if goal.object is not None else frozenset()
             for obj in select(goal.subject, world):
-                self._objects.setdefault(obj.id, []).append(goal)
-            if goal.object is not None:
-                self._places[id(goal)] = {o.id for o in select(goal.object, world)}
+                self._objects.setdefault(obj.id, []).append((goal, places))
 
     def forbids(self, action: Action, obj: ObjectState) -> bool:
         """Whether an action on a thing would break a restraint."""
@@ -45,7 +44,7 @@ class Bans:
             goal.predicate == BRINGS_ABOUT.get(action)
             or (goal.predicate == "touched" and action in HANDLING and action != "put")
             or (goal.predicate == "in" and goal.object is None and action == "pickup")
-            for goal in self._objects.get(obj.id, ())
+            for goal, _ in self._objects.get(obj.id, ())
         )
 
     def forbids_move(self, item: ObjectState, holder: ObjectState) -> bool:
@@ -53,7 +52,7 @@ class Bans:
         if holder.room in self.rooms:
             return True
         return any(
-            (goal.predicate == "in" and holder.id in self._places.get(id(goal), ()))
+            (goal.predicate == "in" and holder.id in places)
             or (goal.predicate == "at" and goal.object is not None and goal.object.room == holder.room)
-            for goal in self._objects.get(item.id, ())
+            for goal, places in self._objects.get(item.id, ())
         )

@@ -6,13 +6,14 @@ from planners.tasks.bans import Bans
 from planners.tasks.failures import Failures
 from planners.tasks.memory import Notes
 from planners.tasks.travel import Travel
-from wire.catalogue import catalogue
+from wire.catalogue import PROP_FLAG, catalogue
 from wire.goals import object_satisfies, select
 from wire.messages.goal import Goal, Selector
 from wire.messages.world import AreaState, ObjectState, RobotState, WorldState
 from wire.model import Vec2
 
 SURE = 0.9
+UNSURE_M, UNSEEN_M, ODD_M = 20.0, 3.0, 12.0
 ABLE = frozenset({"idle", "executing", "canceling", "holding"})
 """States in which a robot can be counted on."""
 _PROP = {
@@ -60,6 +61,15 @@ class Belief:
             return obj.verified or obj.confidence >= SURE or goal.predicate in ("found", "visited")
         fact = obj.props.get(name)
         return fact is not None and (fact.confidence >= SURE or fact.source in self._robot_ids)
+
+    def doubt_m(self, obj: ObjectState) -> float:
+        """How much farther a surer thing of the type may be: a trip to something else is in vain.
+
+        A property that the type cannot have (a tomato that is open) tells that sources take it for different things.
+        """
+        flags = catalogue()[obj.type].flags
+        odd = any(PROP_FLAG.get(name) not in flags for name in obj.props)
+        return UNSURE_M * (1.0 - obj.confidence) + UNSEEN_M * (not obj.verified) + ODD_M * odd
 
     def held_by(self, obj: ObjectState) -> RobotState | None:
         """The robot that has it in hand."""

@@ -34,13 +34,13 @@ class Handling:
         return len(self.jobs) - 1
 
     def preference(self, goal: Goal, obj: ObjectState) -> tuple[float, float]:
-        """Lower is better: what has not failed, is within reach, near a robot and surely there."""
+        """Lower is better: what has not failed, is within reach, near a robot, surely there and surely of its type."""
         action = "pickup" if goal.predicate in ("in", "at") else ACTIONS.get(goal.predicate, "inspect")
         failed = FAILED_M * self._belief.failures.count(action, obj.id)
         shut = 5.0 * sum(self._belief.shut(h) for h in self._belief.around(obj))
         held = -50.0 if self._belief.held_by(obj) is not None else 0.0
         way = self._belief.nearest_m(self._belief.point_m(obj))
-        return (failed + shut + held + way, -obj.confidence)
+        return (failed + shut + held + way + self._belief.doubt_m(obj), -obj.confidence)
 
     # The three kinds of jobs
 

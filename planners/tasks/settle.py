@@ -64,7 +64,7 @@ def _fitness(goals: list[Goal], users: list[int], obj: ObjectState, belief: Beli
     """The thing of which most already holds, then the nearest."""
     open_goals = sum(not belief.satisfies(goals[i], obj) for i in users)
     failed = belief.failures.count("pickup", obj.id)
-    return (open_goals + failed, belief.nearest_m(belief.point_m(obj)), obj.id)
+    return (open_goals + failed, belief.nearest_m(belief.point_m(obj)) + belief.doubt_m(obj), obj.id)
 
 
 def _all_bound(goals: list[Goal], moved: list[int], belief: Belief) -> list[Goal]:

@@ -165,3 +165,37 @@ def test_same_request_same_plan() -> None:
         _, _, replies = run(house, ScriptedPlanner(site()), SENTENCES[0])
         plans.append([r.model_dump_json() for r in replies])
     assert plans[0] == plans[1]
+
+
+def test_the_surer_of_two_things_is_taken() -> None:
+    house = House(1, cameras=tuple(id for id, _, _ in ROOMS))
+    for type in ("CounterTop", "CounterTop", "Sink"):
+        house.add(type, "kitchen")
+    near = house.add("Tomato", "kitchen", "countertop-1")
+    near.props["isOpen"] = True
+    house.add("Tomato", "kitchen", "countertop-2")
+    reply, _, _ = run(house, ScriptedPlanner(site()), "put the tomato in the sink")
+    assert reply.plan is not None, reply.refusal
+    assert house.things["tomato-2"].parent == "sink-1"
+
+
+def test_a_tidy_order_is_kept() -> None:
+    house = furnished(11, tuple(id for id, _, _ in ROOMS))
+    words = "first close the microwave, then turn off every TV, then put the newspaper on the sofa"
+    reply, _, replies = run(house, ScriptedPlanner(site()), words)
+    assert reply.plan is not None, reply.refusal
+    for plan in (r.plan for r in replies if r.plan is not None):
+        before = {node.id: set(node.after) for node in plan.nodes}
+        for late in plan.nodes:
+            early = [n.id for n in plan.nodes if n.goal is not None and late.goal is not None and n.goal < late.goal]
+            assert set(early) <= _all_before(late.id, before)
+
+
+def _all_before(id: str, before: dict[str, set[str]]) -> set[str]:
+    found: set[str] = set()
+    todo = [id]
+    while todo:
+        for earlier in before[todo.pop()] - found:
+            found.add(earlier)
+            todo.append(earlier)
+    return found

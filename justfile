@@ -132,4 +132,4 @@ fmt: install
 [group('develop')]
 lock:
     uv pip compile -q --python-version 3.11 --python-platform x86_64-manylinux_2_28 --generate-hashes \
-        --no-header --no-annotate --no-emit-index-url --extra all --extra dev pyproject.toml -o requirements.lock
+        --no-header --no-annotate --no-emit-index-url --extra all --extra bench --extra dev pyproject.toml -o requirements.lock

@@ -57,6 +57,9 @@ SECTIONS: tuple[Section, ...] = (
         Claim("median over a bare round trip", "x", 3, False, lambda d: d["ratio"]),
         Claim("99th percentile", "ms", 5, False, lambda d: d["observation_to_world"]["p99_ms"]),
     )),
+    Section("planners.bench_schedule", "schedules beside those of CP-SAT", (
+        Claim("longest median makespan over the best found", "x", 1.1, False, lambda d: max(map(float, d["worst_ratio"]))),
+    )),
     Section("sim.bench", "physics of a furnished home, one drone body and two robots", (
         Claim("times real time", "x", 100, True, lambda d: d["compound"]["real_time_factor"]),
         Claim("times real time with legs", "x", 15, True, lambda d: d["compound_with_legs"]["real_time_factor"]),

@@ -9,8 +9,13 @@ from typing import Any
 from wire.site import Site
 
 LEASE_MS = 900
-BLOCKED_LINK_US = 1_000_000
-"""A reader that takes nothing for this long while its queue is full is cut off, so that it holds up nobody else."""
+BLOCKED_READER_US = 3_000_000
+"""The router cuts off a reader that takes nothing for this long while its queue is full: it would hold up all others."""
+BLOCKED_ROUTER_US = 10_000_000
+"""A sender waits longer for the router than the router for its slowest reader, and so keeps its own link."""
+SOCKET_BYTES = 262_144
+"""A sender that waits for a full socket is woken when a third of it is free. With the megabytes that the kernel gives by
+itself, that takes a slow reader of small messages longer than a lease, and the link is taken for dead."""
 MAX_MESSAGE_BYTES = 16_000_000
 CREDENTIALS_VARIABLE = "R2X_CREDENTIALS"
 
@@ -56,7 +61,7 @@ def _password(file: Path) -> str:
     return file.read_text().strip()
 
 
-def common_config() -> dict[str, Any]:
+def common_config(blocked_us: int = BLOCKED_READER_US) -> dict[str, Any]:
     """What routers and clients share. Without priorities, whatever is sent first arrives first: lockstep needs that."""
     return {
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
@@ -65,10 +70,11 @@ def common_config() -> dict[str, Any]:
             "shared_memory": {"enabled": False},
             "link": {
                 "protocols": ["tcp"],
+                "tcp": {"so_sndbuf": SOCKET_BYTES, "so_rcvbuf": SOCKET_BYTES},
                 "tx": {
                     "lease": LEASE_MS,
                     "keep_alive": 4,
-                    "queue": {"congestion_control": {"block": {"wait_before_close": BLOCKED_LINK_US}}},
+                    "queue": {"congestion_control": {"block": {"wait_before_close": blocked_us}}},
                 },
                 "rx": {"max_message_size": MAX_MESSAGE_BYTES},
             },
@@ -78,7 +84,7 @@ def common_config() -> dict[str, Any]:
 
 def client_config(link: Link) -> dict[str, Any]:
     """A client of the one router: it listens on nothing and looks for nobody else."""
-    config = common_config()
+    config = common_config(BLOCKED_ROUTER_US)
     config["mode"] = "client"
     config["connect"] = {
         "endpoints": [link.endpoint],

@@ -1,6 +1,7 @@
 """A process's single session with the mesh over Zenoh. Callbacks only file letters; the loop opens them."""
 
 import json
+import sys
 import time
 from types import TracebackType
 from typing import Any, Self
@@ -20,11 +21,14 @@ from wire.site import Site
 
 LETTERS_AT_ONCE = 100
 """A step handles no more than this, so that a flood leaves time for what is due."""
+SWITCH_S = 0.0005
+"""A busy loop lets a callback in this often; at Python's own 5 ms the router would think that nobody reads."""
 _REMOTE = zenoh.Locality.REMOTE
 
 
 def open_session(config: dict[str, Any]) -> zenoh.Session:
     """The one place where sessions are opened."""
+    zenoh.try_init_log_from_env()  # silent unless RUST_LOG is set
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(config)))
     except zenoh.ZError as error:
@@ -51,6 +55,7 @@ class ZenohNode:
         self._exprs: dict[str, zenoh.KeyExpr] = {}
         self._declared: list[Any] = []
         self._presence_declared = False
+        self._kept: list[Event] = []
         self.watching = False
         """The core asked for presence."""
         self.tick = NO_TICK
@@ -59,6 +64,7 @@ class ZenohNode:
         self.mailbox = Mailbox(id, owner)
 
     def __enter__(self) -> Self:
+        sys.setswitchinterval(SWITCH_S)
         try:
             self._session = open_session(client_config(self._link))
         except MeshError as error:
@@ -169,17 +175,24 @@ class ZenohNode:
 
     def collect(self, timeout_s: float) -> list[Event]:
         """Events as they came, waiting at most this long for the first: for a process that follows no ticks."""
+        kept, self._kept = self._kept, []
+        if kept:
+            return kept
         return self.mailbox.open(self.inbox.take(timeout_s, LETTERS_AT_ONCE), self._now_s())
 
     def call(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> Message:
-        """Ask and wait, for tools without a loop of their own; other events are lost. Raises MeshError."""
+        """Ask and wait, for tools without a loop of their own; `collect` has what came meanwhile. Raises MeshError."""
         number = self.ask(service, request, id, timeout_s)
-        while True:
-            for event in self.collect(0.05):
-                if isinstance(event, Reply) and event.ask == number:
-                    if event.message is None:
-                        raise MeshError(event.error)
-                    return event.message
+        kept: list[Event] = []
+        reply = None
+        while reply is None:
+            events = self.collect(0.05)
+            reply = next((event for event in events if isinstance(event, Reply) and event.ask == number), None)
+            kept += [event for event in events if event is not reply]
+        self._kept = kept
+        if reply.message is None:
+            raise MeshError(reply.error)
+        return reply.message
 
     def _now_s(self) -> float:
         return self.now_s if self._lockstep else time.monotonic()

@@ -12,12 +12,13 @@ _GAP_S = 0.4
 """Looks closer together than this are one look."""
 _SAID = {"robot": 1.3, "cctv": 0.6, "device": 1.0}
 """Log-odds taken away by one look whose source says that the thing is gone."""
-_UNSEEN = {"robot": 0.6, "cctv": 0.15, "device": 0.0}
-"""Log-odds taken away by one look that should have shown it."""
+_UNSEEN = {"robot": 0.35, "cctv": 0.1, "device": 0.0}
+"""Log-odds taken away by one look that should have shown it: detectors overlook small things again and again."""
 _DEEPEST = {"robot": -4.5, "cctv": -1.6, "device": -2.0}
+_DEEPEST_UNSEEN = -1.6
 _MARGIN_M = 0.15
 _SURE_M2 = 0.25**2
-_OVERRIDE_LOOKS = 3
+_OVERRIDE_LOOKS = 6
 """After so many close looks in vain, what cameras said before no longer counts."""
 _FORGET = -2.2
 
@@ -34,7 +35,8 @@ class Absences:
         for absence in batch.gone:
             thing = source.tracks.get(absence.track) or self._nearest(absence)
             if thing is not None and thing.mark != mark and thing.id in self._things.by_id:
-                self._deny(thing, source, batch.stamp_s, _SAID[batch.kind] * absence.confidence)
+                weight = _SAID[batch.kind] * absence.confidence
+                self._deny(thing, source, batch.stamp_s, weight, _DEEPEST[batch.kind])
         if batch.view is not None and batch.view.polygon_m:
             self._unseen(batch.view, source, batch.stamp_s, mark)
 
@@ -51,7 +53,7 @@ class Absences:
         for thing in [t for t in near if t.mark < mark]:
             if not self._expected(thing, view, source, stamp_s, reach):
                 continue
-            self._deny(thing, source, stamp_s, _UNSEEN[source.kind])
+            self._deny(thing, source, stamp_s, _UNSEEN[source.kind], _DEEPEST_UNSEEN)
 
     def _expected(self, thing: Thing, view: View, source: Source, stamp_s: float, reach: float) -> bool:
         """Whether a source that looked this way would surely have noticed the thing."""
@@ -68,7 +70,7 @@ class Absences:
             return False
         return inside((thing.x, thing.y), view.polygon_m) and inside(_beyond(thing, x, y, distance), view.polygon_m)
 
-    def _deny(self, thing: Thing, source: Source, stamp_s: float, weight: float) -> None:
+    def _deny(self, thing: Thing, source: Source, stamp_s: float, weight: float, deepest: float) -> None:
         if thing.locked or self._hidden(thing):
             return
         sight = thing.sights.get(source.id)
@@ -78,7 +80,7 @@ class Absences:
             return
         sight.absent_s = stamp_s
         sight.absent_looks += 1
-        after = max(sight.support - weight, min(_DEEPEST[source.kind], sight.support))
+        after = max(sight.support - weight, min(deepest, sight.support))
         thing.belief += after - sight.support
         sight.support = after
         thing.version += 1

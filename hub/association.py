@@ -14,6 +14,9 @@ _CONFUSED = 5.0
 _LIVE_S = 3.0
 _MERGE_GATE = 6.0
 _MERGE_M = 0.9
+_STANDS_M = 0.3
+"""What begins lower than this stands on the floor."""
+_OVERLAP = 0.6
 _HEIGHT_M2 = 0.05**2
 
 
@@ -87,6 +90,8 @@ def _one(a: Thing, b: Thing) -> bool:
     dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
     if dx * dx + dy * dy > _MERGE_M * _MERGE_M:
         return False
+    if _same_floor(a, b, dx * dx + dy * dy):
+        return True
     penalty = type_penalty(a, b.type)
     if penalty >= GATE or a.locked or b.locked or b.id in a.distinct or a.receptacle == b.id or b.receptacle == a.id:
         return False
@@ -98,6 +103,15 @@ def _one(a: Thing, b: Thing) -> bool:
     sxx, sxy, syy = a.xx + b.xx + extra, a.xy + b.xy, a.yy + b.yy + extra
     plane = (syy * dx * dx - 2.0 * sxy * dx * dy + sxx * dy * dy) / (sxx * syy - sxy * sxy)
     return plane + dz * dz / (a.zz + b.zz + _HEIGHT_M2 + extra) + penalty < _MERGE_GATE
+
+
+def _same_floor(a: Thing, b: Thing, apart_m2: float) -> bool:
+    """Two pieces of furniture cannot stand in one place: one of them is the other, taken for another type."""
+    if a.shape.kind == "pickup" or b.shape.kind == "pickup" or a.type == b.type:
+        return False
+    if max(a.z - a.shape.height_m / 2.0, b.z - b.shape.height_m / 2.0) > _STANDS_M:
+        return False
+    return apart_m2 < (_OVERLAP * min(a.shape.half_diagonal_m, b.shape.half_diagonal_m)) ** 2
 
 
 def _seen_together(a: Thing, b: Thing) -> bool:

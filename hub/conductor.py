@@ -84,6 +84,7 @@ class Conductor:
 
     def _ask(self, task: Task, now_s: float) -> None:
         self._asked = True
+        task.rename(self._world.things)
         request = PlanRequest(
             task=task.id,
             epoch=self._epoch,
@@ -151,6 +152,7 @@ class Conductor:
             self.fail(f"no robot could start any of {', '.join(s.node.id for s in run.ready(now_s))}", now_s)
 
     def _finish(self, task: Task, run: PlanRun, now_s: float) -> None:
+        task.rename(self._world.things)
         good = task.judge(self._world.snapshot(now_s))
         if not run.plan.complete:
             self._replan(task, "the search is over", now_s)

@@ -61,6 +61,8 @@ def _height_fit(bottom_m: float, middle_m: float, other: Thing, holder: Shape) -
     if other.type in _SEATS:
         return 1.0 - abs(bottom_m - low_m - 0.5 * holder.height_m) / 0.4
     slack = 0.08
+    if other.type in _LEVELS:
+        return 1.0 if low_m - slack <= bottom_m <= high_m + slack else 0.0
     if low_m - slack <= middle_m <= high_m + slack:
         return 1.0
     return 0.0

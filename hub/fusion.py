@@ -8,6 +8,7 @@ from math import inf
 
 from hub import association
 from hub.facts import claim
+from hub.kinds import Shape, shape
 from hub.records import Fact, Sight, Thing
 from hub.things import Things
 from hub.trust import Trust
@@ -129,7 +130,7 @@ class Fusion:
         rxx, rxy, ryy, rzz = seen.covariance_m2
         known = thing.shape
         type_same = seen.type == thing.type
-        if not type_same and gate != inf and seen.type not in known.confusable:
+        if not type_same and gate != inf and not _mistakable(known, seen.type):
             return False
         if thing.locked:
             return self._absorb(thing, x, y, mark, gate)
@@ -199,7 +200,9 @@ class Fusion:
         thing.hits += 1
         if sight.support < source.cap:
             self._support(thing, sight, source, confidence)
-        if not type_same or thing.hits < 10:
+        if type_same:
+            thing.votes[seen.type] = thing.votes.get(seen.type, 0.0) + confidence * source.weight
+        else:
             self._vote(thing, seen.type, confidence * source.weight)
         facts, id = thing.facts, source.id
         for name, probability in seen.props.items():
@@ -241,6 +244,11 @@ class Fusion:
         for id, sight in thing.sights.items():
             if not sight.robot and sight.support > 0.0 and stamp_s - sight.stamp_s < _FIRST_HAND_S:
                 self.trust.score(id, right=True)
+
+
+def _mistakable(known: Shape, type: str) -> bool:
+    """Whether a source that follows a thing may call it that: one that looks alike, or other furniture."""
+    return type in known.confusable or (known.kind != "pickup" and shape(type).kind != "pickup")
 
 
 def _restart(thing: Thing, seen: ObjectObservation) -> None:

@@ -24,6 +24,7 @@ def write_world(world: World) -> str:
             "searched": world.areas.searched(),
             "trust": {source: list(counts) for source, counts in sorted(world.trust.counts().items())},
             "seq": world.seq,
+            "merged": world.things.merged,
         },
         separators=(",", ":"),
     )
@@ -40,6 +41,7 @@ def read_world(world: World, text: str) -> None:
         world.areas.search_done(room, "", 0.0)
     world.trust.restore({source: (right, wrong) for source, (right, wrong) in data["trust"].items()})
     world.seq = data["seq"]
+    world.things.merged.update(data["merged"])
     world.lock()
 
 

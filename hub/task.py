@@ -6,9 +6,10 @@ from collections import deque
 from hub.memory import read_goals, read_run, write_goals, write_run
 from hub.monitor import Watch
 from hub.plan import PlanRun
+from hub.things import Things
 from hub.world import World
 from wire.goals import holds
-from wire.messages.goal import Goal
+from wire.messages.goal import Goal, Selector
 from wire.messages.operator import GoalState, TaskState, TaskStatus
 from wire.messages.plan import Refusal
 from wire.messages.world import WorldState
@@ -63,6 +64,19 @@ class Task:
             path_m += max(robot.travelled_m - at_start[0], 0.0)
             steps += max(robot.action_steps - at_start[1], 0)
         self.spent = (path_m, steps)
+
+    def rename(self, things: Things) -> None:
+        """Follow things that turned out to be others through the goals."""
+        if things.merged:
+            self.goals = tuple(
+                goal.model_copy(
+                    update={
+                        "subject": _renamed(goal.subject, things),
+                        "object": _renamed(goal.object, things) if goal.object is not None else None,
+                    }
+                )
+                for goal in self.goals
+            )
 
     def judge(self, world: WorldState) -> bool:
         """Evaluate the goals over W; True when there are some and all hold."""
@@ -121,6 +135,16 @@ class Task:
             },
             separators=(",", ":"),
         )
+
+
+def _renamed(selector: Selector, things: Things) -> Selector:
+    """The same things under the ids that they have now."""
+    return selector.model_copy(
+        update={
+            "id": things.standing_for(selector.id) if selector.id is not None else None,
+            "exclude": tuple(_renamed(other, things) for other in selector.exclude),
+        }
+    )
 
 
 def read_task(text: str) -> Task:

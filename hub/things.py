@@ -22,6 +22,8 @@ class Things:
         self.touched: list[Thing] = []
         """Those that changed since the last delta."""
         self.removed: list[str] = []
+        self.merged: dict[str, str] = {}
+        """Ids given up because they were another thing's: old id -> the one that stands for it."""
 
     def __iter__(self) -> Iterator[Thing]:
         return iter(self.by_id.values())
@@ -46,7 +48,7 @@ class Things:
     def _new_id(self) -> str:
         while True:
             id = f"obj-{self._random.randrange(16**4):04x}"
-            if id not in self.by_id:
+            if id not in self.by_id and id not in self.merged:
                 return id
 
     def remove(self, thing: Thing) -> None:
@@ -61,6 +63,12 @@ class Things:
                 other.receptacle = None
                 other.version += 1
                 self.touch(other)
+
+    def standing_for(self, id: str) -> str:
+        """The id under which a thing is known now."""
+        while id in self.merged:
+            id = self.merged[id]
+        return id
 
     def touch(self, thing: Thing) -> None:
         if not thing.touched:

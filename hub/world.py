@@ -205,12 +205,15 @@ class World:
         for id, sight in drop.sights.items():
             if id not in keep.sights:
                 keep.sights[id] = sight
-                keep.belief += sight.support
+                keep.belief += sight.support  # a source that saw both counts once
         for name, fact in drop.facts.items():
             for id, said in fact.claims.items():
                 mine = self.property_of(keep, name)
                 if id not in mine.claims:
                     claim(mine, id, said.probability, said.stamp_s)
+        for type, weight in drop.votes.items():
+            keep.votes[type] = keep.votes.get(type, 0.0) + weight
+        keep.retype(max(sorted(keep.votes), key=lambda type: keep.votes[type], default=keep.type))
         keep.hits += drop.hits
         keep.verified = keep.verified or drop.verified
         keep.version += 1
@@ -220,4 +223,5 @@ class World:
                 thing.receptacle = keep.id
                 thing.version += 1
                 self.things.touch(thing)
+        self.things.merged[drop.id] = keep.id
         self.things.remove(drop)

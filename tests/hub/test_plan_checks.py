@@ -1,0 +1,125 @@
+"""What the hub answers to plans that cannot be carried out."""
+
+import random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hub.checks import faults
+from hub.floor import FloorPlan
+from tests.hub.scenes import ACTIONS, flat
+from wire.messages.plan import Plan, PlanNode
+from wire.messages.world import ObjectState, PropertyState, RobotState, WorldState
+
+SKILLS = {"dog-1": ACTIONS, "dog-2": ACTIONS}
+
+
+def _object(id: str, type: str, room: str = "kitchen", receptacle: str | None = None, **props: bool) -> ObjectState:
+    return ObjectState(
+        id=id,
+        type=type,
+        position_enu_m=(2.0, 2.0, 0.8),
+        covariance_m2=(0.01, 0.0, 0.01, 0.01),
+        receptacle=receptacle,
+        props={n: PropertyState(value=v, confidence=0.9, source="cam-1", stamp_s=0.0) for n, v in props.items()},
+        room=room,
+        source="cam-1",
+        stamp_s=0.0,
+        confidence=0.9,
+    )
+
+
+def _world(**robot: object) -> WorldState:
+    dog = {"id": "dog-1", "kind": "quadruped", "position_enu_m": (1.0, 1.0, 0.3), "yaw_deg": 0.0, "status": "idle"}
+    return WorldState(
+        seq=1,
+        stamp_s=0.0,
+        robots=(RobotState.model_validate(dog | {"stamp_s": 0.0, "room": "kitchen"} | robot),),
+        objects=(
+            _object("apple", "Apple"),
+            _object("egg", "Potato", receptacle="fridge"),
+            _object("fridge", "Fridge", isOpen=False),
+            _object("table", "DiningTable"),
+            _object("tv", "Television", room="living", isToggled=True),
+        ),
+    )
+
+
+def _faults(
+    *nodes: PlanNode, world: WorldState | None = None, skills: dict[str, tuple[str, ...]] = SKILLS
+) -> list[str]:
+    plan = Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=nodes)
+    return faults(plan, world or _world(), skills, FloorPlan(flat()))
+
+
+OPEN = PlanNode(id="open", action="open", object="fridge")
+TAKE = PlanNode(id="take", action="pickup", object="apple")
+PUT = PlanNode(id="put", action="put", object="fridge", item="apple", same_robot_as="take", after=("take", "open"))
+
+
+def test_a_good_plan_has_no_faults() -> None:
+    assert _faults(OPEN, TAKE, PUT, PlanNode(id="off", action="toggle_off", object="tv")) == []
+
+
+@pytest.mark.parametrize(
+    ("nodes", "words"),
+    [
+        ((TAKE, TAKE), "appears 2 times"),
+        ((PlanNode(id="a", action="pickup", object="apple", after=("b",)),), "not in the plan"),
+        ((PlanNode(id="a", action="pickup", object="pear"),), "there is no object pear"),
+        ((PlanNode(id="a", action="explore", room="attic"),), "there is no room attic"),
+        ((PlanNode(id="a", action="explore"),), "names no room"),
+        ((PlanNode(id="a", action="pickup"),), "names no object"),
+        ((PlanNode(id="a", action="put", object="table"),), "which item"),
+        ((PlanNode(id="a", action="toggle_on", object="apple"),), "not toggleable"),
+        ((PlanNode(id="a", action="pickup", object="fridge"),), "not pickupable"),
+        ((PlanNode(id="a", action="goto"),), "names no place"),
+        ((PlanNode(id="a", action="goto", room="bath", goal=3),), "serves goal 3"),
+        ((PlanNode(id="a", action="put", object="table", item="apple"),), "pick it up first"),
+        ((OPEN, TAKE, PUT.model_copy(update={"after": ("take",)})), "fridge is closed"),
+        ((OPEN, TAKE, PUT.model_copy(update={"after": ("open",)})), "nobody has apple in hand|must wait for take"),
+        ((PlanNode(id="a", action="pickup", object="egg"),), "egg is in fridge, which is closed"),
+        ((TAKE, PlanNode(id="again", action="pickup", object="apple", after=("take",))), "already in a hand"),
+        ((PlanNode(id="a", action="goto", room="bath", req_skills=("fly",)),), "no robot can fly"),
+    ],
+)
+def test_each_fault_is_named(nodes: tuple[PlanNode, ...], words: str) -> None:
+    found = _faults(*nodes)
+    assert found
+    assert any(word in text for text in found for word in words.split("|")), found
+
+
+def test_skills_are_of_robots_that_are_there() -> None:
+    assert _faults(TAKE, skills={}) == ["no robot is there"]
+    assert "no robot can pickup" in _faults(TAKE, skills={"dog-1": ("goto",)})[0]
+    wanted = TAKE.model_copy(update={"preferred_robot": "dog-1"})
+    assert "prefers dog-1" in _faults(wanted, skills={"dog-1": ("goto",), "dog-2": ACTIONS})[0]
+
+
+def test_what_is_held_already_may_be_put() -> None:
+    world = _world(inventory="apple")
+    assert _faults(PlanNode(id="a", action="put", object="table", item="apple"), world=world) == []
+
+
+def test_an_open_fridge_needs_no_opening() -> None:
+    world = _world()
+    fridge = _object("fridge", "Fridge", isOpen=True)
+    world = world.model_copy(update={"objects": tuple(fridge if o.id == "fridge" else o for o in world.objects)})
+    assert _faults(PlanNode(id="a", action="pickup", object="egg"), world=world) == []
+
+
+@given(seed=st.integers(0, 100_000), size=st.integers(2, 12))
+@settings(max_examples=60, deadline=None)
+def test_circles_are_found_and_graphs_without_are_not_blamed(seed: int, size: int) -> None:
+    rng = random.Random(seed)
+    names = [f"n-{i}" for i in range(size)]
+    after = {n: tuple(sorted(rng.sample(names[:i], rng.randint(0, min(i, 3))))) for i, n in enumerate(names)}
+    shuffled = rng.sample(names, size)
+    nodes = [PlanNode(id=n, action="goto", room="bath", after=after[n]) for n in shuffled]
+    assert _faults(*nodes) == []
+    first, last = sorted(rng.sample(range(size), 2))
+    chain = {names[k]: (*after[names[k]], names[k - 1]) for k in range(first + 1, last + 1)}
+    chain[names[first]] = (*after[names[first]], names[last])
+    circular = [n.model_copy(update={"after": tuple(dict.fromkeys(chain.get(n.id, n.after)))}) for n in nodes]
+    assert "in a circle" in _faults(*circular)[0]

@@ -115,6 +115,7 @@ def test_one_robot_cannot_speak_for_another(secured: bool, tmp_path: Path, monke
     with truthful_mesh(tmp_path, monkeypatch, secured) as mesh:
         mesh.run_core("hub")
         mesh.wait(lambda: any("event/dog-1" in entry for entry in mesh.diary("hub")))
+        mesh.wait(lambda: any("velocity/dog-1" in entry for entry in mesh.diary("sim")))
         cards_before = sum("? card/dog-1" in entry for entry in mesh.diary("dog-1"))
         attack(mesh, "dog-2")
 

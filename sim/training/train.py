@@ -20,7 +20,6 @@ from sim.training.shards import read_shards
 
 log = logging.getLogger("train")
 
-PEAK_RATE = 3e-3
 WARM_UP = 200
 AVERAGE = 0.998
 """Of the running mean of the weights, which is what is kept."""
@@ -29,12 +28,12 @@ AVERAGE = 0.998
 class Trainer:
     """The network, its running mean and its optimiser."""
 
-    def __init__(self, steps: int, seed: int) -> None:
+    def __init__(self, steps: int, seed: int, rate: float) -> None:
         torch.manual_seed(seed)
         self.network = DetectorNetwork().to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.mean = copy.deepcopy(self.network)
-        self.optimiser = torch.optim.AdamW(self.network.parameters(), PEAK_RATE, weight_decay=1e-4)
-        self.steps, self.step = steps, 0
+        self.optimiser = torch.optim.AdamW(self.network.parameters(), rate, weight_decay=1e-4)
+        self.steps, self.step, self._peak = steps, 0, rate
 
     def learn(self, batch: Batch) -> dict[str, float]:
         """One step; returns the terms of the loss."""
@@ -55,7 +54,7 @@ class Trainer:
 
     def _rate(self) -> float:
         warm = min(1.0, (self.step + 1) / WARM_UP)
-        return PEAK_RATE * warm * (0.5 * (1.0 + math.cos(math.pi * min(1.0, self.step / self.steps))) + 0.005)
+        return self._peak * warm * (0.5 * (1.0 + math.cos(math.pi * min(1.0, self.step / self.steps))) + 0.005)
 
     @torch.no_grad()
     def _average(self) -> None:
@@ -72,6 +71,7 @@ def main() -> None:
     parser.add_argument("--frames", type=Path, required=True, help="folder of shards made by sim.training.frames")
     parser.add_argument("--steps", type=int, default=12000)
     parser.add_argument("--batch", type=int, default=16)
+    parser.add_argument("--rate", type=float, default=3e-3, help="of learning, at its highest")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--keep", type=int, default=1000, help="write the weights every so many steps")
@@ -82,7 +82,7 @@ def main() -> None:
     torch.set_num_threads(arguments.threads)
     shard = read_shards(list(arguments.frames.glob("*.npz")))
     log.info("%d pictures, %d labels", len(shard.jpegs), len(shard.labels))
-    trainer = Trainer(arguments.steps, arguments.seed)
+    trainer = Trainer(arguments.steps, arguments.seed, arguments.rate)
     if arguments.start is not None:
         trainer.network.load_state_dict(torch.load(arguments.start))
         trainer.mean.load_state_dict(trainer.network.state_dict())

@@ -90,6 +90,7 @@ def _failed(world: World, node: PlanNode, robot: str, result: Result) -> None:
         thing.version += 1
         world.things.touch(thing)
         if thing.receptacle not in world.fleet.robots:
+            world.denials.add(thing, result.stamp_s)
             world.things.remove(thing)
     elif result.code == "closed":
         shut = _around(world, thing)

@@ -8,7 +8,7 @@ from math import inf
 
 from hub import association
 from hub.facts import claim
-from hub.kinds import Shape, shape
+from hub.kinds import shape
 from hub.records import Fact, Sight, Thing
 from hub.things import Things
 from hub.trust import Trust
@@ -23,6 +23,9 @@ _HEARSAY = 16.0
 _TRACK_GATE = 16.0
 _FLOOR_M2 = {"robot": 0.02**2, "cctv": 0.05**2, "device": 0.05**2}
 """Errors of one source repeat from picture to picture: no number of them makes the place surer than this."""
+_VOTING_HITS = 8
+_MISNAMED = 0.6
+"""Part of its half diagonal within which furniture under another name is the same."""
 _KNOWN_HITS, _REPEATED = 4, 3.0
 """One more look at what has been seen this often counts with variances so many times larger, unless it has moved."""
 _STEP = {"robot": 1.7, "cctv": 0.8, "device": 2.0}
@@ -130,20 +133,17 @@ class Fusion:
         rxx, rxy, ryy, rzz = seen.covariance_m2
         known = thing.shape
         type_same = seen.type == thing.type
-        if not type_same and gate != inf and not _mistakable(known, seen.type):
-            return False
+        if not type_same and gate != inf and seen.type not in known.confusable:
+            return self._misnamed(thing, seen, source, stamp_s, mark)
         if thing.locked:
             return self._absorb(thing, x, y, mark, gate)
         grown = known.walk_m2_per_s * (stamp_s - thing.stamp_s) if stamp_s > thing.stamp_s else 0.0
         floor = source.floor_m2
         pxx, pxy, pyy, pzz = thing.xx + grown, thing.xy, thing.yy + grown, thing.zz + grown
         dx, dy, dz = x - thing.x, y - thing.y, z - thing.z
-        rxx += floor
-        ryy += floor
-        rzz += floor
+        rxx, ryy, rzz = rxx + floor, ryy + floor, rzz + floor
         sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy
-        wide = known.gate_m2
-        wxx, wyy = sxx + wide, syy + wide
+        wxx, wyy = sxx + known.gate_m2, syy + known.gate_m2
         if wyy * dx * dx - 2.0 * sxy * dx * dy + wxx * dy * dy > gate * (wxx * wyy - sxy * sxy):
             return False
         if thing.hits > _KNOWN_HITS and dx * dx + dy * dy < 4.0 * rxx:
@@ -180,6 +180,18 @@ class Fusion:
             self.things.touched.append(thing)
         return True
 
+    def _misnamed(self, thing: Thing, seen: ObjectObservation, source: Source, stamp_s: float, mark: int) -> bool:
+        """Furniture that a source calls by another name: it counts as seen and votes, but its place is another's."""
+        if "pickup" in (thing.shape.kind, shape(seen.type).kind):
+            return False
+        x, y, _ = seen.position_enu_m
+        if (x - thing.x) ** 2 + (y - thing.y) ** 2 > (_MISNAMED * thing.shape.half_diagonal_m) ** 2:
+            return False
+        self._credit(thing, seen, source, stamp_s, False)
+        thing.mark, thing.stamp_s, thing.last_source = mark, max(stamp_s, thing.stamp_s), source.id
+        self.things.touch(thing)
+        return True
+
     def _absorb(self, thing: Thing, x: float, y: float, mark: int, gate: float) -> bool:
         """A sight of something in a hand or behind a door: it is that thing, and says nothing new."""
         if (x - thing.x) ** 2 + (y - thing.y) ** 2 > gate * association.LOCKED_M2:
@@ -200,7 +212,9 @@ class Fusion:
         thing.hits += 1
         if sight.support < source.cap:
             self._support(thing, sight, source, confidence)
-        if type_same:
+        if not source.robot and sight.hits > _VOTING_HITS:
+            pass  # a fixed camera repeats itself: more of the same picture is no more evidence
+        elif type_same:
             thing.votes[seen.type] = thing.votes.get(seen.type, 0.0) + confidence * source.weight
         else:
             self._vote(thing, seen.type, confidence * source.weight)
@@ -244,11 +258,6 @@ class Fusion:
         for id, sight in thing.sights.items():
             if not sight.robot and sight.support > 0.0 and stamp_s - sight.stamp_s < _FIRST_HAND_S:
                 self.trust.score(id, right=True)
-
-
-def _mistakable(known: Shape, type: str) -> bool:
-    """Whether a source that follows a thing may call it that: one that looks alike, or other furniture."""
-    return type in known.confusable or (known.kind != "pickup" and shape(type).kind != "pickup")
 
 
 def _restart(thing: Thing, seen: ObjectObservation) -> None:

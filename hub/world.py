@@ -4,6 +4,7 @@ from hub.absence import Absences
 from hub.areas import Areas
 from hub.association import duplicates
 from hub.containment import hidden, parent_of
+from hub.denials import Denials
 from hub.facts import claim, settle
 from hub.fleet import Fleet, Robot
 from hub.floor import FloorPlan
@@ -37,6 +38,7 @@ class World:
         self.fleet = Fleet(self.floor)
         self.fusion = Fusion(self.things, self.trust, self.fleet.near)
         self._absences = Absences(self.fusion, lambda thing: hidden(thing, self.things))
+        self.denials = Denials()
         self.seq = 0
         self._robots: frozenset[str] = frozenset()
         self._locks_due = False
@@ -124,7 +126,8 @@ class World:
                 self._review(thing, now_s)
         if self._locks_due:
             self.lock()
-        changed = [t for t in (*touched, *later) if t.id in self.things.by_id and due(t, now_s)]
+        there = [t for t in (*touched, *later) if t.id in self.things.by_id]
+        changed = [t for t in there if due(t, now_s) and (t.shown >= 0 or self.denials.rename(t, now_s))]
         return list({t.id: t for t in changed}.values())
 
     def delta(self, now_s: float) -> WorldDelta | None:

@@ -144,3 +144,22 @@ def test_parents_form_a_forest(seed: int) -> None:
             assert id not in walked
             walked.add(id)
             id = parents.get(id)
+
+
+def test_a_camera_that_insists_on_what_a_hand_did_not_find_is_not_believed() -> None:
+    world = _kitchen()
+    _act(world, "pickup", "Apple", now_s=5.0, status="failed", code="not_there")
+    for look in range(20):
+        world.observe(batch("cam-1", 6.0 + look, seen("Apple", 2.1, 2.2, 0.83, "again")))
+        world.delta(6.0 + look)
+    assert [o for o in world.snapshot(26.0).objects if o.type == "Apple"] == []
+
+
+def test_what_was_denied_takes_the_other_name_that_was_heard() -> None:
+    world = _kitchen()
+    _act(world, "pickup", "Apple", now_s=5.0, status="failed", code="not_there")
+    for look in range(8):
+        type = "Tomato" if look in (2, 4, 6) else "Apple"
+        world.observe(batch("cam-1", 6.0 + look, seen(type, 2.1, 2.2, 0.83, f"t{look}")))
+        world.delta(6.0 + look)
+    assert [o.type for o in world.snapshot(15.0).objects if o.type in ("Apple", "Tomato")] == ["Tomato"]

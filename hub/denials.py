@@ -7,6 +7,8 @@ from hub.records import Thing
 
 _FURNITURE_S, _LOOSE_S = 3600.0, 120.0
 _REACH_M = 0.3
+_OUTVOTED = -1e3
+"""No number of further looks brings a denied name back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,5 +47,6 @@ class Denials:
         others = [type for type in sorted(thing.votes) if not self.denies(thing, type, now_s)]
         if not others:
             return False
+        thing.votes[thing.type] = _OUTVOTED
         thing.retype(max(others, key=lambda type: thing.votes[type]))
         return True

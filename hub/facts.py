@@ -10,6 +10,8 @@ _FADE_S = 600.0
 _OUTDATED_FADE_S = 20.0
 """A first-hand claim fades this fast once somebody who had agreed, or had said nothing, says otherwise."""
 _SMOOTH = 0.4
+_WEIGH_S = 1.0
+"""What one source says all the time is weighed anew this often."""
 _FLIP_ODDS = 0.3
 """A settled value changes only when the other side leads by this much."""
 
@@ -35,6 +37,9 @@ def handle(fact: Fact, source: str, value: bool, stamp_s: float) -> None:
 
 def settle(fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> bool:
     """Weigh the claims; True when value, source or contradictions changed."""
+    if now_s - fact.weighed_s < _WEIGH_S and _unanimous(fact):
+        return False
+    fact.weighed_s = now_s
     weights = {source: _weight(source, said, fact, now_s, trust, robots) for source, said in fact.claims.items()}
     total = sum(weights.values())
     value = total > 0.0
@@ -54,6 +59,15 @@ def settle(fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> bo
         fact.value, fact.source, fact.contradicted_by, fact.confidence = value, source, against, confidence
     fact.stamp_s = fact.claims[source].stamp_s
     return changed
+
+
+def _unanimous(fact: Fact) -> bool:
+    """Whether the only source goes on saying what is believed."""
+    if len(fact.claims) != 1 or fact.contradicted_by or fact.source not in fact.claims:
+        return False
+    said = fact.claims[fact.source]
+    fact.stamp_s = said.stamp_s
+    return (said.probability > 0.5) == fact.value
 
 
 def _weight(source: str, said: Claim, fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> float:

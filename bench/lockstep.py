@@ -5,15 +5,12 @@
 
 import argparse
 import json
-import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from console.bring_up import bring_up
-from console.client import Client
+from bench.pace import times_real_time
 from console.places import free_port, generate_home
-from wire.messages.truth import JudgeReply, JudgeRequest
 
 MEASURE_S = 10.0
 DEVICES = 6
@@ -26,16 +23,8 @@ def measure() -> dict[str, Any]:
             "--robots", str(DEVICES), "--no-cctv",
         )  # fmt: skip
         site_file.write_text(without_vision(site_file.read_text()))
-        ready = bring_up(site_file, quiet=True)
-        try:
-            with Client(ready.site, ready.mesh.credentials_dir, "evaluator") as evaluator:
-                began, before_s = time.monotonic(), evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
-                time.sleep(MEASURE_S)
-                after_s = evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
-                took_s = time.monotonic() - began
-        finally:
-            ready.mesh.stop()
-    return {"times_real_time": (after_s - before_s) / took_s, "devices": DEVICES, "simulated_s": after_s - before_s}
+        factor = times_real_time(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
+    return {"times_real_time": factor, "devices": DEVICES}
 
 
 def without_vision(toml: str) -> str:

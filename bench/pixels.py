@@ -5,42 +5,41 @@
 
 import argparse
 import json
-import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from console.bring_up import bring_up
-from console.client import Client
+from bench.pace import times_real_time
 from console.places import free_port, generate_home
-from wire.messages.truth import JudgeReply, JudgeRequest
 from wire.site import load_site
 
 MEASURE_S = 20.0
 WARM_UP_S = 4.0
-CAMERAS = 5
+CAMERAS, ROBOTS = 5, 3
 
 
 def measure() -> dict[str, Any]:
     with TemporaryDirectory(prefix="r2x-pixels-") as folder:
         site_file = _home_with(CAMERAS, Path(folder) / "site.toml")
-        ready = bring_up(site_file, quiet=True)
-        try:
-            with Client(ready.site, ready.mesh.credentials_dir, "evaluator") as evaluator:
-                time.sleep(WARM_UP_S)
-                began, before_s = time.monotonic(), evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
-                time.sleep(MEASURE_S)
-                after_s = evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
-                took_s = time.monotonic() - began
-        finally:
-            ready.mesh.stop()
-    return {"times_real_time": (after_s - before_s) / took_s, "cameras": CAMERAS, "robots": len(ready.site.robot)}
+        factor = times_real_time(site_file, WARM_UP_S, MEASURE_S)
+    return {"times_real_time": factor, "cameras": CAMERAS, "robots": ROBOTS}
 
 
 def _home_with(cameras: int, out: Path) -> Path:
     """The first home that has this many cameras."""
     for seed in range(100):
-        generate_home(seed, out, "--name", "pixels", "--port", str(free_port()), "--view-port", str(free_port()))
+        generate_home(
+            seed,
+            out,
+            "--name",
+            "pixels",
+            "--port",
+            str(free_port()),
+            "--view-port",
+            str(free_port()),
+            "--robots",
+            str(ROBOTS),
+        )
         if len(load_site(out).camera) == cameras:
             return out
     raise LookupError(f"no home of the first hundred has {cameras} cameras")

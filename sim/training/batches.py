@@ -15,6 +15,9 @@ from sim.training.targets import Target, make_target
 
 WINDOW_PX = (256, 320)
 """Rows and columns of a training picture; the scale is that of the camera."""
+WHOLE_PX = (480, 640)
+WHOLE_SHARE = 0.35
+"""Of the batches, that are a few whole pictures: near a camera a bed is larger than a window."""
 MIN_VISIBLE_PX = 14
 MIN_VISIBLE = 0.35
 """Of its area were nothing in front of it: less, and missing it is no fault."""
@@ -62,8 +65,16 @@ class Sampler:
         self._clear = clear_enough(shard.labels)
         counts = np.bincount(shard.labels["type"][self._clear], minlength=len(layout.detector_types()))
         self._rarity = 1.0 / np.sqrt(np.maximum(counts, 20))
-        weights = [self._frame_weight(span) for span in shard.spans]
-        self._weights = np.array(weights) / np.sum(weights)
+        self._is_large = np.array([lens.width_px >= WHOLE_PX[1] for lens in shard.lenses])
+        self._weights = self._frame_weights()
+
+    def _frame_weights(self) -> NDArray[np.float64]:
+        """Rare things first; both kinds of camera equally often."""
+        weights = np.array([self._frame_weight(span) for span in self._shard.spans])
+        for kind in (self._is_large, ~self._is_large):
+            weights[kind] /= max(1e-9, float(weights[kind].sum()))
+        result: NDArray[np.float64] = weights / weights.sum()
+        return result
 
     def _frame_weight(self, span: slice) -> float:
         types = self._shard.labels["type"][span][self._clear[span]]
@@ -71,34 +82,40 @@ class Sampler:
 
     def __iter__(self) -> Iterator[Batch]:
         while True:
-            chosen = self._rng.choice(len(self._weights), self._batch, p=self._weights)
-            yield self._collate([self._window(int(i)) for i in chosen])
+            whole = bool(self._is_large.any()) and self._rng.random() < WHOLE_SHARE
+            size_px = WHOLE_PX if whole else WINDOW_PX
+            weights = self._weights * self._is_large if whole else self._weights
+            count = max(1, self._batch // 4) if whole else self._batch
+            chosen = self._rng.choice(len(weights), count, p=weights / weights.sum())
+            yield self._collate([self._window(int(i), size_px) for i in chosen], size_px)
 
-    def _collate(self, windows: list[Window]) -> Batch:
-        pictures = np.empty((len(windows), 5, *WINDOW_PX), np.float32)
+    def _collate(self, windows: list[Window], size_px: tuple[int, int]) -> Batch:
+        pictures = np.empty((len(windows), 5, *size_px), np.float32)
         per_head: tuple[list[Target], list[Target]] = ([], [])
         for picture, window in zip(pictures, windows, strict=True):
             picture[:3] = window.rgb.transpose(2, 0, 1) * np.float32(1.0 / 255.0)
             picture[3:] = window.planes
             for head, targets in zip(layout.heads(), per_head, strict=True):
                 clear, open_ = window.labels[window.clear], window.labels[~window.clear]
-                targets.append(make_target(head, clear, open_, WINDOW_PX))
+                targets.append(make_target(head, clear, open_, size_px))
         return Batch(pictures, (_stack(per_head[0]), _stack(per_head[1])))
 
-    def _window(self, frame: int) -> Window:
+    def _window(self, frame: int, size_px: tuple[int, int]) -> Window:
         shard, span = self._shard, self._shard.spans[frame]
         bgr = cv2.imdecode(np.frombuffer(shard.jpegs[frame], np.uint8), cv2.IMREAD_COLOR)
         rgb: Image = np.asarray(bgr)[:, :, ::-1]
         labels, clear = shard.labels[span].copy(), self._clear[span]
-        top, left = self._corner(labels, clear, rgb.shape[:2])
-        window = cut_window(rgb, shard.lenses[frame], labels, clear, top, left)
+        top, left = self._corner(labels, clear, rgb.shape[:2], size_px)
+        window = cut_window(rgb, shard.lenses[frame], labels, clear, (top, left), size_px)
         if self._rng.random() < 0.5:
             window = _flip(window)
         return replace(window, rgb=self._relight(window.rgb))
 
-    def _corner(self, labels: Labels, clear: NDArray[np.bool_], size_px: tuple[int, ...]) -> tuple[int, int]:
+    def _corner(
+        self, labels: Labels, clear: NDArray[np.bool_], picture_px: tuple[int, ...], size_px: tuple[int, int]
+    ) -> tuple[int, int]:
         """Top left of a window: about a thing, the rarer the likelier, or anywhere."""
-        room = (max(0, size_px[0] - WINDOW_PX[0]), max(0, size_px[1] - WINDOW_PX[1]))
+        room = (max(0, picture_px[0] - size_px[0]), max(0, picture_px[1] - size_px[1]))
         if not clear.any() or self._rng.random() < 0.2:
             return int(self._rng.integers(room[0] + 1)), int(self._rng.integers(room[1] + 1))
         weights = self._rarity[labels["type"][clear]]
@@ -106,7 +123,7 @@ class Sampler:
         middle = ((top + bottom) / 2.0, (left + right) / 2.0)
         corner = [
             int(np.clip(m - n * self._rng.uniform(0.15, 0.85), 0, r))
-            for m, n, r in zip(middle, WINDOW_PX, room, strict=True)
+            for m, n, r in zip(middle, size_px, room, strict=True)
         ]
         return corner[0], corner[1]
 
@@ -126,12 +143,20 @@ class Sampler:
         return lit
 
 
-def cut_window(rgb: Image, lens: Lens, labels: Labels, clear: NDArray[np.bool_], top: int, left: int) -> Window:
-    """Rows and columns of a picture from a corner on, padded with black where it ends."""
-    rows, columns = min(WINDOW_PX[0], rgb.shape[0] - top), min(WINDOW_PX[1], rgb.shape[1] - left)
-    piece = np.zeros((*WINDOW_PX, 3), np.uint8)
+def cut_window(
+    rgb: Image,
+    lens: Lens,
+    labels: Labels,
+    clear: NDArray[np.bool_],
+    corner: tuple[int, int],
+    size_px: tuple[int, int] = WINDOW_PX,
+) -> Window:
+    """Rows and columns of a picture from its top left corner on, padded with black where the picture ends."""
+    top, left = corner
+    rows, columns = min(size_px[0], rgb.shape[0] - top), min(size_px[1], rgb.shape[1] - left)
+    piece = np.zeros((*size_px, 3), np.uint8)
     piece[:rows, :columns] = rgb[top : top + rows, left : left + columns]
-    planes = np.zeros((2, *WINDOW_PX), np.float32)
+    planes = np.zeros((2, *size_px), np.float32)
     planes[0, :rows, :columns] = lens.floor_rows()[top : top + rows, None]
     planes[1] = lens.position_enu_m[2] / 3.0
     labels, inside = _clip(labels, top, left, rows, columns)
@@ -151,7 +176,7 @@ def _clip(labels: Labels, top: int, left: int, rows: int, columns: int) -> tuple
 
 def _flip(window: Window) -> Window:
     """Left to right; a padded picture is flipped with its padding, which is on the right only when it is none."""
-    labels, width = window.labels.copy(), WINDOW_PX[1]
+    labels, width = window.labels.copy(), window.rgb.shape[1]
     labels["box"][:, [0, 2]] = width - labels["box"][:, [2, 0]]
     labels["centre"][:, 0] = width - labels["centre"][:, 0]
     return Window(np.ascontiguousarray(window.rgb[:, ::-1]), window.planes, labels, window.clear)

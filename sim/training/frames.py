@@ -29,6 +29,8 @@ HELD_OUT = 9000
 class Shot:
     """One picture as a device gets it, and what is true of it."""
 
+    camera: str
+    """cctv, mast or home: a fixed camera or a robot's in a home in disorder, or a home's own camera."""
     jpeg: bytes
     depth_m: Depth
     lens: Lens
@@ -37,28 +39,53 @@ class Shot:
     doors: tuple[Door, ...]
 
 
-def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
-    """Pictures of one home from both kinds of camera, the home in new disorder for every other one."""
-    rng = np.random.default_rng(seed)
-    scene = make_home(seed)
-    renderer = make_renderer(scene, "auto", parts)
-    scenery = Scenery(scene, renderer, rng)
-    walls = tuple(Wall(start_m=w.start_m, end_m=w.end_m) for w in scene.walls)
-    doors = tuple(Door(id=d.id, rooms=d.rooms, start_m=d.start_m, end_m=d.end_m) for d in scene.doors)
-    taken = 0
-    for number in range(cctv + mast):
-        if number % 2 == 0:
-            scenery.shuffle()
-        lens = cctv_lens(scene, rng) if number < cctv else mast_lens(scene, rng)
-        if lens is None:
-            continue
-        picture = renderer.render(camera_of(lens), with_ids=True, with_depth=True)
+class Studio:
+    """A home and its renderer."""
+
+    def __init__(self, seed: int) -> None:
+        self.rng = np.random.default_rng(seed)
+        self.scene = make_home(seed)
+        self.renderer = make_renderer(self.scene, "auto", parts)
+        self.scenery = Scenery(self.scene, self.renderer, self.rng)
+        self._walls = tuple(Wall(start_m=w.start_m, end_m=w.end_m) for w in self.scene.walls)
+        self._doors = tuple(Door(id=d.id, rooms=d.rooms, start_m=d.start_m, end_m=d.end_m) for d in self.scene.doors)
+        self._taken = 0
+
+    def shoot(self, camera: str, lens: Lens) -> Shot:
+        """One picture of the home as it is."""
+        view = Camera(
+            lens.position_enu_m, lens.yaw_rad, lens.tilt_down_rad, lens.width_px, lens.height_px, lens.focal_px
+        )
+        picture = self.renderer.render(view, with_ids=True, with_depth=True)
         assert picture.ids is not None
         assert picture.depth_m is not None
-        labels = label_picture(picture.ids, picture.depth_m, lens, scenery.things(ROBOT_ID), taken)
-        yield Shot(encode_jpeg(picture.rgb, int(rng.integers(70, 96))), picture.depth_m, lens, labels, walls, doors)
-        taken += 1
-    renderer.close()
+        things = self.scenery.things(ROBOT_ID)
+        labels = label_picture(picture.ids, picture.depth_m, lens, things, self._taken)
+        self._taken += 1
+        jpeg = encode_jpeg(picture.rgb, int(self.rng.integers(70, 96)))
+        return Shot(camera, jpeg, picture.depth_m, lens, labels, self._walls, self._doors)
+
+
+def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
+    """Pictures of one home from both kinds of camera, the home in new disorder for every other one."""
+    studio = Studio(seed)
+    for number in range(cctv + mast):
+        if number % 2 == 0:
+            studio.scenery.shuffle()
+        fixed = number < cctv
+        lens = cctv_lens(studio.scene, studio.rng) if fixed else mast_lens(studio.scene, studio.rng)
+        if lens is not None:
+            yield studio.shoot("cctv" if fixed else "mast", lens)
+    studio.renderer.close()
+
+
+def shoot_tidy(seed: int) -> Iterator[Shot]:
+    """A home as its generator left it, from its own cameras."""
+    studio = Studio(seed)
+    for pose in studio.scene.cameras:
+        size = (pose.width_px, pose.height_px, pose.focal_px)
+        yield studio.shoot("home", Lens(*size, pose.position_m, pose.yaw_rad, pose.tilt_down_rad))
+    studio.renderer.close()
 
 
 def render_home(seed: int, cctv: int, mast: int) -> Shard:
@@ -66,10 +93,6 @@ def render_home(seed: int, cctv: int, mast: int) -> Shard:
     shots = list(shoot_home(seed, cctv, mast))
     labels = np.concatenate([np.zeros(0, dtype=LABEL), *(shot.labels for shot in shots)])
     return Shard([shot.jpeg for shot in shots], [shot.lens for shot in shots], labels)
-
-
-def camera_of(lens: Lens) -> Camera:
-    return Camera(lens.position_enu_m, lens.yaw_rad, lens.tilt_down_rad, lens.width_px, lens.height_px, lens.focal_px)
 
 
 def span(text: str) -> range:

@@ -21,13 +21,13 @@ from devices.vision.picture import decode_jpeg
 from devices.vision.projection import locate
 from devices.vision.walls import before_walls
 from sim.training.batches import clear_enough
-from sim.training.frames import Shot, shoot_home, span
+from sim.training.frames import Shot, shoot_home, shoot_tidy, span
 from sim.training.matching import Matched, match
 from sim.training.report import table, write_report
 from wire.catalogue import PROPS
 
-CAMERAS = {"cctv": 640, "mast": 320}
-"""By the width of their pictures."""
+CAMERAS = ("home", "cctv", "mast")
+"""See `sim.training.frames.Shot`."""
 
 
 @dataclass
@@ -97,20 +97,19 @@ def measure(shots: Sequence[Shot], detector: EmbeddedDetector) -> dict[str, Any]
     clear, first = clear_enough(everything), 0
     looking_ms = defaultdict(list)
     for shot in shots:
-        kind = next(name for name, width in CAMERAS.items() if width == shot.lens.width_px)
         rgb = decode_jpeg(shot.jpeg)
         started_s = time.thread_time()
         detections = detector.look(rgb, shot.lens)
-        looking_ms[kind].append(1000.0 * (time.thread_time() - started_s))
-        if kind == "mast":
+        looking_ms[shot.camera].append(1000.0 * (time.thread_time() - started_s))
+        if shot.camera == "mast":
             sightings = locate(detections, shot.lens, shot.depth_m)
         else:
             sightings = before_walls(locate(detections, shot.lens), shot.lens, shot.walls, shot.doors)
         last = first + len(shot.labels)
-        tallies[kind].add(match(shot.labels, clear[first:last], sightings))
+        tallies[shot.camera].add(match(shot.labels, clear[first:last], sightings))
         first = last
     return {
-        name: {**tally.summary(), "look_ms": round(float(np.median(looking_ms[name])), 1)}
+        name: {**tally.summary(), "look_ms": round(float(np.median(looking_ms[name] or [0.0])), 1)}
         for name, tally in tallies.items()
     }
 
@@ -126,7 +125,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true", help="print the figures")
     parser.add_argument("--report", type=Path, help="replace the table in this file")
     arguments = parser.parse_args()
-    shots = [shot for seed in arguments.houses for shot in shoot_home(seed, cctv=24, mast=24)]
+    shots = [shot for seed in arguments.houses for shot in (*shoot_tidy(seed), *shoot_home(seed, cctv=24, mast=24))]
     figures = measure(shots, EmbeddedDetector(arguments.weights))
     if arguments.report is not None:
         write_report(arguments.report, figures)

@@ -3,29 +3,37 @@
 from pathlib import Path
 from typing import Any
 
+from wire.catalogue import PROPS
+
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 
+CAMERAS = {
+    "home": "home as it is, its own cameras",
+    "cctv": "home in disorder, fixed camera",
+    "mast": "home in disorder, robot's camera with depth",
+}
+
+
 def table(figures: dict[str, Any]) -> str:
-    """Markdown: the two cameras side by side, then every type."""
-    cctv, mast = figures["cctv"], figures["mast"]
-    lines = ["| | fixed camera, 640x480 | robot's camera, 320x240 with depth |", "|---|---|---|"]
-    rows = [
-        ("pictures / things that should be found", "pictures", "things"),
-        ("precision / recall", "precision", "recall"),
-    ]
-    lines += [f"| {name} | {cctv[a]} / {cctv[b]} | {mast[a]} / {mast[b]} |" for name, a, b in rows]
-    errors = [camera["position_error_m"] for camera in (cctv, mast)]
-    lines.append(
-        "| position error, median / p90 | " + " | ".join(f"{e['median']} / {e['p90']} m" for e in errors) + " |"
-    )
-    for prop in cctv["states"]:
-        shown = [camera["states"].get(prop, {"accuracy": None, "seen": 0}) for camera in (cctv, mast)]
-        lines.append(f"| {prop} right | " + " | ".join(f"{s['accuracy']} of {s['seen']}" for s in shown) + " |")
-    lines.append(f"| one core, ms per picture | {cctv['look_ms']} | {mast['look_ms']} |")
-    lines += ["", "| type | fixed: precision / recall (things) | robot: precision / recall (things) |", "|---|---|---|"]
-    for name, one in cctv["types"].items():
-        lines.append(f"| {name} | {_type(one)} | {_type(mast['types'][name])} |")
+    """Markdown: the cameras side by side, then every type."""
+    columns = [figures[name] for name in CAMERAS]
+    lines = ["| | " + " | ".join(CAMERAS.values()) + " |", "|---|---|---|---|"]
+
+    def row(name: str, cells: list[str]) -> None:
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+
+    row("pictures / things that should be found", [f"{c['pictures']} / {c['things']}" for c in columns])
+    row("precision / recall", [f"{c['precision']} / {c['recall']}" for c in columns])
+    errors = [c["position_error_m"] for c in columns]
+    row("position error, median / p90", [f"{e['median']} / {e['p90']} m" for e in errors])
+    for prop in PROPS:
+        states = [c["states"].get(prop, {"accuracy": None, "seen": 0}) for c in columns]
+        row(f"{prop} right", [f"{s['accuracy']} of {s['seen']}" for s in states])
+    row("one core, ms per picture", [str(c["look_ms"]) for c in columns])
+    lines += ["", "Precision / recall (things) by type:", "", lines[0], lines[1]]
+    for name in columns[0]["types"]:
+        row(name, [_type(c["types"][name]) for c in columns])
     return "\n".join(lines)
 
 

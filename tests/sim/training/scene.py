@@ -2,9 +2,8 @@
 
 from devices.vision.lens import Lens
 from sim.models import parts
-from sim.render import make_renderer
+from sim.render import Camera, make_renderer
 from sim.scene import Body, Room, Scene, Wall
-from sim.training.frames import camera_of
 from sim.training.labels import Labels, Thing, label_picture
 
 LENS = Lens(640, 480, 320.0, (0.3, 2.5, 2.3), 0.0, 0.6)
@@ -31,7 +30,9 @@ def draw(lens: Lens = LENS):
     """Picture and labels."""
     scene = make_scene()
     renderer = make_renderer(scene, "auto", parts)
-    picture = renderer.render(camera_of(lens), with_ids=True, with_depth=True)
+    size = (lens.width_px, lens.height_px, lens.focal_px)
+    camera = Camera(lens.position_enu_m, lens.yaw_rad, lens.tilt_down_rad, *size)
+    picture = renderer.render(camera, with_ids=True, with_depth=True)
     renderer.close()
     assert picture.ids is not None
     assert picture.depth_m is not None

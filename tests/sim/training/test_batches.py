@@ -5,7 +5,7 @@ import pytest
 
 from devices.vision import layout
 from devices.vision.picture import encode_jpeg
-from sim.training.batches import WINDOW_PX, Sampler, clear_enough, cut_window
+from sim.training.batches import WHOLE_PX, WINDOW_PX, Sampler, clear_enough, cut_window
 from sim.training.shards import Shard, read_shards, write_shard
 from sim.training.targets import make_target
 
@@ -31,7 +31,7 @@ def test_a_window_moves_labels_with_its_pixels(shard: Shard) -> None:
     rgb = np.zeros((480, 640, 3), np.uint8)
     labels = shard.labels.copy()
     left, top = int(labels["box"][0][0]) - 10, max(0, int(labels["box"][0][1]) - 20)
-    window = cut_window(rgb, LENS, labels, clear_enough(labels), min(top, 480 - WINDOW_PX[0]), min(left, 320))
+    window = cut_window(rgb, LENS, labels, clear_enough(labels), (min(top, 480 - WINDOW_PX[0]), min(left, 320)))
     assert window.rgb.shape == (*WINDOW_PX, 3)
     moved = window.labels[window.labels["key"] == labels["key"][0]][0]
     shift = labels["centre"][0] - moved["centre"]
@@ -61,6 +61,11 @@ def test_what_may_be_missed_is_not_asked_for(shard: Shard) -> None:
         target = make_target(head, shard.labels[:0], shard.labels, (480, 640))
         assert target.heat.max() == 0.0
         assert target.weight_heat.min() == 0.0
+
+
+def test_whole_pictures_come_too(shard: Shard) -> None:
+    sizes = {batch.pictures.shape for batch, _ in zip(Sampler(shard, 4, seed=1), range(12), strict=False)}
+    assert sizes == {(4, 5, *WINDOW_PX), (1, 5, *WHOLE_PX)}
 
 
 def test_the_same_seed_gives_the_same_batches(shard: Shard) -> None:

@@ -59,8 +59,7 @@ class Conductor:
         """Take on a task, new or from the journal."""
         self.task = task
         self._asked, self._halting = False, None
-        self._ask_at_s = now_s
-        self._moved_s = now_s
+        self._ask_at_s = self._moved_s = now_s
         if task.run is None:
             self._world.begin_task()
         else:
@@ -234,6 +233,7 @@ class Conductor:
         """A failure while nothing runs."""
         task.fails += 1
         task.failures.append(reason)
+        task.say(now_s, reason)
         self._replan(task, reason, now_s)
 
     def halt(self, then: Then, reason: str, now_s: float) -> None:
@@ -267,7 +267,7 @@ class Conductor:
             self._replan(task, task.failures[-1] if task.failures else "", now_s)
 
     def resume(self, now_s: float) -> None:
-        """Go on after a pause, with a fresh plan for the world as it is now."""
+        """Go on after a pause, with a fresh plan."""
         if self.task is not None and self.task.status == "paused":
             self._replan(self.task, "resumed", now_s)
 

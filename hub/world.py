@@ -159,6 +159,7 @@ class World:
                 thing.version += 1
                 if name == "isOpen" and fact.value != before:
                     self._locks_due = True
+                    self._relocate_near(thing)
 
     def _locate(self, thing: Thing) -> None:
         """Room and parent from the believed place, for what nobody has put there knowingly."""
@@ -166,16 +167,21 @@ class World:
         far = abs(thing.x - thing.placed_x) + abs(thing.y - thing.placed_y) > _RESETTLED_M
         thing.placed_x, thing.placed_y, thing.placed_z = thing.x, thing.y, thing.z
         room = self.floor.room_at(thing.x, thing.y)
-        parent = thing.receptacle if thing.locked else parent_of(thing, self.things)
+        shut_in = thing.locked or hidden(thing, self.things)
+        parent = thing.receptacle if shut_in else parent_of(thing, self.things)
         if room != thing.room or parent != thing.receptacle:
             thing.room, thing.receptacle = room, parent
             thing.version += 1
             self._locks_due = True
         if far and thing.shape.receptacle_mode is not None:
-            for other in self.things.near(thing.x, thing.y, 1.7):
-                if other is not thing and other.shape.kind != "static" and not other.locked:
-                    other.placed_z = 1e9  # to be worked out again, without passing it on
-                    self.things.touch(other)
+            self._relocate_near(thing)
+
+    def _relocate_near(self, thing: Thing) -> None:
+        """What may be in or on it is placed anew with the next delta."""
+        for other in self.things.near(thing.x, thing.y, 1.7):
+            if other is not thing and other.shape.kind != "static" and not other.locked:
+                other.placed_z = 1e9  # by the height, which does not pass it on to yet others
+                self.things.touch(other)
 
     def lock(self) -> None:
         """Mark what is in hands or behind doors."""

@@ -163,3 +163,19 @@ def test_what_was_denied_takes_the_other_name_that_was_heard() -> None:
         world.observe(batch("cam-1", 6.0 + look, seen(type, 2.1, 2.2, 0.83, f"t{look}")))
         world.delta(6.0 + look)
     assert [o.type for o in world.snapshot(15.0).objects if o.type in ("Apple", "Tomato")] == ["Tomato"]
+
+
+def test_what_is_seen_at_a_closed_fridge_is_not_in_it() -> None:
+    world = _kitchen()
+
+    def look(stamp_s: float, is_open: float) -> None:
+        for k in range(6):
+            tomato = seen("Tomato", 3.3, 3.3, 0.9, "tomato")
+            fridge = seen("Fridge", 3.4, 3.4, 0.92, "fridge", isOpen=is_open)
+            world.observe(batch("cam-1", stamp_s + k, tomato, fridge))
+            world.delta(stamp_s + k)
+
+    look(4.0, 0.05)
+    assert _one(world, "Tomato", 10.0).receptacle is None
+    look(12.0, 0.95)
+    assert _one(world, "Tomato", 20.0).receptacle == _one(world, "Fridge", 20.0).id

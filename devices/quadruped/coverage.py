@@ -14,6 +14,8 @@ SEEN, GLANCED = 3.0, 1.0
 CLEAR_VIEW = 0.75
 """At the sides of a picture things are cut off."""
 NEAR_M, FAR_M = 0.5, 3.0
+FAR_FOR_SMALL_M = 2.2
+"""Small things further off are a few pixels, which the detector often misses."""
 RAY_GAP_RAD = 0.03
 LATTICE_M = 0.5
 WALK_PRICE_PER_M = 0.04
@@ -27,8 +29,8 @@ _AROUND_M = np.stack(np.meshgrid(*[np.linspace(-SAMPLE_M, SAMPLE_M, 5)] * 2), ax
 class Coverage:
     """Of one room, since this was made."""
 
-    def __init__(self, floor: FloorMap, polygon_m: tuple[Vec2, ...]) -> None:
-        self._floor = floor
+    def __init__(self, floor: FloorMap, polygon_m: tuple[Vec2, ...], far_m: float = FAR_M) -> None:
+        self._floor, self._far_m = floor, far_m
         self._room = floor.inside(polygon_m) & (floor.walls_m > WALL_M)
         self._score = np.zeros(self._room.shape, np.float32)
         self._cells = max(1, int(self._room.sum()))
@@ -49,7 +51,8 @@ class Coverage:
         away = look.surface_m[:, :2] - np.array(look.camera_m, np.float32)
         off_rad = np.arctan2(away[:, 1], away[:, 0]) - look.yaw_rad
         off_rad = (off_rad + np.pi) % (2.0 * np.pi) - np.pi
-        clear_m = look.surface_m[np.abs(off_rad) < CLEAR_VIEW * look.hfov_rad / 2.0, :2]
+        clear = (np.abs(off_rad) < CLEAR_VIEW * look.hfov_rad / 2.0) & (np.hypot(away[:, 0], away[:, 1]) < self._far_m)
+        clear_m = look.surface_m[clear, :2]
         if len(clear_m):
             around = (clear_m[:, None] + _AROUND_M).reshape(-1, 2)
             self._score[self._floor.cells_of(around)] = SEEN
@@ -85,7 +88,7 @@ class Coverage:
         """Cells between which and the camera no wall stands."""
         count = max(8, ceil(hfov_rad / RAY_GAP_RAD))
         bearings = yaw_rad + np.linspace(-hfov_rad / 2.0, hfov_rad / 2.0, count)
-        ranges = np.arange(CELL_M, FAR_M, CELL_M)
+        ranges = np.arange(CELL_M, self._far_m, CELL_M)
         points = np.stack([np.cos(bearings), np.sin(bearings)], axis=1)[:, None, :] * ranges[None, :, None]
         rows, columns = self._floor.cells_of((points + np.array(camera_m)).reshape(-1, 2))
         open_ = (self._floor.walls_m[rows, columns] > WALL_M).reshape(count, len(ranges))

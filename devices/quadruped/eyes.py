@@ -7,8 +7,8 @@ from math import cos, dist, sin
 import numpy as np
 
 from devices.quadruped.look import Look, Points, Thing
-from devices.vision.detector import Detector
-from devices.vision.layout import ROBOT
+from devices.vision.detector import Detection, Detector
+from devices.vision.layout import ROBOT, detector_types
 from devices.vision.lens import Depth, Lens
 from devices.vision.look import Seen, look_at_frame
 from devices.vision.picture import PictureError
@@ -27,6 +27,8 @@ LOAD_M, TOO_NEAR_M = 0.4, 0.5
 """While something is carried, what is this near to the hand or to the camera is the load."""
 EVERY_PX = 8
 FARTHEST_M = 3.2
+SUSPICION = 0.12
+"""What is less likely than this is not worth a second look."""
 
 
 class PictureEyes:
@@ -63,7 +65,13 @@ class PictureEyes:
 
     def _look_of(self, seen: Seen) -> Look:
         things = tuple(
-            Thing(s.detection.type, s.detection.confidence, s.position_enu_m, dict(s.detection.props))
+            Thing(
+                s.detection.type,
+                s.detection.confidence,
+                s.position_enu_m,
+                dict(s.detection.props),
+                alternatives(s.detection),
+            )
             for s in seen.sightings
             if s.detection.type != ROBOT
         )
@@ -76,6 +84,18 @@ class PictureEyes:
             things=things,
             surface_m=surface_points(lens, seen.depth_m),
         )
+
+
+def alternatives(detection: Detection) -> dict[str, float]:
+    """Other types that a detection may be of, each with the confidence it would have."""
+    if not len(detection.log_probs):
+        return {}
+    shares = np.exp(detection.log_probs - detection.log_probs.max())
+    return {
+        type: float(detection.confidence * share)
+        for type, share in zip(detector_types(), shares, strict=True)
+        if detection.confidence * share >= SUSPICION and type not in (detection.type, ROBOT)
+    }
 
 
 def is_load(sighting: Sighting, lens: Lens) -> bool:

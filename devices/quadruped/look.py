@@ -1,6 +1,6 @@
 """What one picture told the robot, in the terms of its skills. No perception here, so that skills need none."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -22,6 +22,8 @@ class Thing:
     confidence: float
     position_enu_m: Vec3
     props: dict[str, float]
+    maybe: dict[str, float] = field(default_factory=dict)
+    """What else it may be, with a confidence each: reason enough to go nearer and look again."""
 
 
 @dataclass(frozen=True)

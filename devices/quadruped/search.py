@@ -6,7 +6,7 @@ from math import pi
 from typing import TypeVar
 
 from devices.quadruped import places
-from devices.quadruped.coverage import CLEAR_VIEW, Coverage
+from devices.quadruped.coverage import CLEAR_VIEW, FAR_FOR_SMALL_M, FAR_M, Coverage
 from devices.quadruped.gaze import look_around, look_at, take_pictures
 from devices.quadruped.handle import GATE_M
 from devices.quadruped.look import Thing
@@ -18,18 +18,20 @@ from devices.worker import Outcome
 from wire.catalogue import catalogue
 from wire.frames import distance_m
 from wire.messages.command import Command
-from wire.model import Id, Message, Vec2, Word
+from wire.model import Id, Message, Vec2, Vec3, Word
 from wire.site import Room
 
 ENOUGH_LEFT_M2 = 0.4
 """The room has been seen when no more of it than this is left: less than what a fridge stands on."""
 WORTH_A_LOOK_M2, WORTH_A_WALK_M2 = 0.3, 0.5
-MOST_PLACES, MOST_HEADINGS, HEADINGS = 5, 7, 12
+MOST_PLACES, MOST_HEADINGS, HEADINGS = 7, 8, 12
 SEARCH_TILT_RAD = 0.42
 """The picture then reaches from the floor 0.7 m ahead to things above the camera's own height."""
 SURE_AT_ONCE, SURE_TOGETHER, WORTH_COUNTING, SAME_PLACE_M = 0.8, 1.2, 0.35, 0.6
 """One picture that is sure, or several of the same place whose confidences add up."""
 HFOV_RAD = pi / 2.0
+MOST_SUSPECTS, SUSPECT_LOOKS = 3, 2
+"""Places to look at again from near by when nothing was found for sure, and from how many sides."""
 SMALL_M, SMALL_VIEW_M, LARGE_VIEW_M = 0.35, (0.8, 1.6), (1.0, 2.2)
 
 End = TypeVar("End")
@@ -48,8 +50,10 @@ class Finder:
     def __init__(self, robot: Robot, room: Room, looking_for: tuple[str, ...]) -> None:
         self._body, self._looking_for = robot.body, looking_for
         self._inside = robot.body.floor.inside(room.polygon_m)
-        self.coverage = Coverage(robot.body.floor, room.polygon_m)
+        far_m = FAR_FOR_SMALL_M if any(_is_small(type) for type in looking_for) else FAR_M
+        self.coverage = Coverage(robot.body.floor, room.polygon_m, far_m)
         self._candidates: list[Thing] = []
+        self._suspects: list[tuple[Vec3, str, float]] = []
         self._from_s = robot.body.now_s
         self.found: Thing | None = None
 
@@ -78,7 +82,11 @@ class Finder:
 
     def _consider(self, thing: Thing) -> None:
         cell = self._body.floor.cell(thing.position_enu_m[:2])
-        if thing.type not in self._looking_for or not self._inside[cell.row, cell.column]:
+        if not self._inside[cell.row, cell.column]:
+            return
+        weights = {thing.type: thing.confidence, **thing.maybe}
+        self._suspects += [(thing.position_enu_m, t, weights[t]) for t in self._looking_for if t in weights]
+        if thing.type not in self._looking_for:
             return
         if thing.confidence < WORTH_COUNTING:
             return
@@ -90,6 +98,18 @@ class Finder:
         )
         if thing.confidence >= SURE_AT_ONCE or agreeing >= SURE_TOGETHER:
             self.found = self.found or thing
+
+    def suspects(self) -> list[tuple[Vec3, str]]:
+        """Places where something was seen that may be what is looked for, the most suspicious first."""
+        ranked: list[tuple[float, Vec3, str]] = []
+        for place, type, _ in self._suspects:
+            weight = sum(w for p, t, w in self._suspects if t == type and distance_m(p, place) < SAME_PLACE_M)
+            ranked.append((weight, place, type))
+        chosen: list[tuple[Vec3, str]] = []
+        for _, place, type in sorted(ranked, reverse=True):
+            if all(distance_m(place, other) >= SAME_PLACE_M for other, _ in chosen):
+                chosen.append((place, type))
+        return chosen[:MOST_SUSPECTS]
 
 
 def explore(robot: Robot, command: Command) -> Skilled:
@@ -117,10 +137,28 @@ def explore(robot: Robot, command: Command) -> Skilled:
         yield from finder.watch(_look_round(robot, finder))
         if finder.found is not None:
             break
+    if finder.found is None:
+        yield from _look_again(robot, finder, room)
     if finder.found is not None:
         return Outcome("done", "ok", f"found {finder.found.type} in {room.name}", finder.found.position_enu_m)
     wanted = f"; no {', '.join(command.looking_for)} seen" if command.looking_for else ""
     return Outcome("done", "ok", f"looked at {1.0 - finder.coverage.left:.0%} of {room.name}{wanted}")
+
+
+def _look_again(robot: Robot, finder: Finder, room: Room) -> Generator[None, None, None]:
+    """Go nearer to what may be looked for but was not sure."""
+    body = robot.body
+    for place, type in finder.suspects():
+        between_m, tried = SMALL_VIEW_M if _is_small(type) else LARGE_VIEW_M, list[Vec2]()
+        for _ in range(SUSPECT_LOOKS):
+            goals = partial(places.in_view, body.floor, place[:2], between_m, room, tuple(tried))
+            walked = yield from finder.watch(walk(body, goals))
+            if finder.found is not None or walked is None or not walked.arrived:
+                break
+            tried.append(body.position_m)
+            yield from finder.watch(look_at(body, type, place, GATE_M, count=3))
+            if finder.found is not None:
+                return
 
 
 def _look_round(robot: Robot, finder: Finder) -> Generator[None, None, None]:
@@ -143,9 +181,7 @@ def inspect(robot: Robot, command: Command) -> Skilled:
     if not body.sighted:
         return Outcome("failed", "precondition", "this robot runs without its camera")
     yield from await_odometry(body)
-    row = catalogue().get(target.type)
-    small = row is not None and max(row.size_m) < SMALL_M
-    between_m, home = SMALL_VIEW_M if small else LARGE_VIEW_M, robot.room(target.room or "")
+    between_m, home = SMALL_VIEW_M if _is_small(target.type) else LARGE_VIEW_M, robot.room(target.room or "")
     point, gate_m = target.position_enu_m, GATE_M + 2.0 * target.spread_m
     tried: list[Vec2] = []
 
@@ -165,3 +201,8 @@ def inspect(robot: Robot, command: Command) -> Skilled:
             return Outcome("done", "ok", f"saw {target.type} {states}".rstrip(), thing.position_enu_m)
         tried.append(body.position_m)
     return Outcome("failed", "not_there", f"looked where {target.type} was believed to be and did not see it")
+
+
+def _is_small(type: str) -> bool:
+    row = catalogue().get(type)
+    return row is not None and max(row.size_m) < SMALL_M

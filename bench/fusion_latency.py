@@ -21,18 +21,18 @@ OBJECTS = 10
 
 
 def _batch(number: int) -> ObservationBatch:
-    """Ten things that wander a little, so that every batch changes the world."""
-    shift_m = 0.05 * (number % 7)
+    """Ten things, one of them never seen before, so that every batch changes the world."""
     return ObservationBatch(
         source="cam-1", boot_id="bench", seq=number, stamp_s=number * EVERY_S, kind="cctv",
-        objects=tuple(
-            ObjectObservation(
-                track=f"t{k}", type="Mug", confidence=0.9, position_enu_m=(0.5 + 0.7 * k + shift_m, 2.0, 0.8),
-                covariance_m2=(0.01, 0.0, 0.01, 0.01),
-            )
-            for k in range(OBJECTS)
-        ),
+        objects=tuple(_thing(max(0, number - k)) for k in range(OBJECTS)),
     )  # fmt: skip
+
+
+def _thing(number: int) -> ObjectObservation:
+    place = (0.4 + 0.3 * (number % 24), 0.4 + 0.3 * (number // 24), 0.8)
+    return ObjectObservation(
+        track=f"t{number}", type="Mug", confidence=0.97, position_enu_m=place, covariance_m2=(1e-4, 0.0, 1e-4, 1e-4)
+    )
 
 
 def observation_to_world(place: Stage) -> dict[str, float]:

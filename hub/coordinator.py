@@ -22,7 +22,7 @@ from wire.messages.plan import PlanReply
 from wire.model import Vec2
 from wire.site import Site, state_dir
 
-_DELTA_S = 0.1
+_DELTA_S = 0.02
 _TRAFFIC_S = 0.2
 _SNAPSHOT_S = 5.0
 _STATE_S = 1.0

@@ -4,18 +4,21 @@ from collections.abc import Callable
 from math import hypot
 
 from hub.floor import inside
-from hub.fusion import CLOSE_M, Fusion, Source
+from hub.fusion import Fusion, Source
 from hub.records import Sight, Thing
 from wire.messages.observation import Absence, ObservationBatch, View
 
 _GAP_S = 0.4
 """Looks closer together than this are one look."""
-_SAID = {"robot": 1.3, "cctv": 0.6, "device": 1.0}
+_SAID = {"robot": 0.8, "cctv": 0.5, "device": 1.0}
 """Log-odds taken away by one look whose source says that the thing is gone."""
 _UNSEEN = {"robot": 0.35, "cctv": 0.1, "device": 0.0}
 """Log-odds taken away by one look that should have shown it: detectors overlook small things again and again."""
 _DEEPEST = {"robot": -4.5, "cctv": -1.6, "device": -2.0}
-_DEEPEST_UNSEEN = -1.6
+_DEEPEST_UNSEEN = -1.2
+_UNSEEN_WITHIN_M = 1.7
+_LATELY_S = 8.0
+"""What anybody has seen within this time is not missed by another who looks past it."""
 _MARGIN_M = 0.15
 _SURE_M2 = 0.25**2
 _OVERRIDE_LOOKS = 6
@@ -48,7 +51,7 @@ class Absences:
     def _unseen(self, view: View, source: Source, stamp_s: float, mark: int) -> None:
         """Things that stood in plain view of a source and were not in its picture."""
         x, y, _ = view.origin_enu_m
-        reach = min(view.range_m, CLOSE_M if source.robot else 8.0)
+        reach = min(view.range_m, _UNSEEN_WITHIN_M if source.robot else 8.0)
         near = self._things.near(x, y, reach) if source.robot else source.tracks.values()
         for thing in [t for t in near if t.mark < mark]:
             if not self._expected(thing, view, source, stamp_s, reach):
@@ -57,7 +60,7 @@ class Absences:
 
     def _expected(self, thing: Thing, view: View, source: Source, stamp_s: float, reach: float) -> bool:
         """Whether a source that looked this way would surely have noticed the thing."""
-        if thing.locked or thing.shape.kind != "pickup" or stamp_s - thing.stamp_s < 1.0:
+        if thing.locked or thing.shape.kind != "pickup" or stamp_s - thing.stamp_s < _LATELY_S:
             return False
         if thing.xx > _SURE_M2 or thing.yy > _SURE_M2:
             return False
@@ -91,10 +94,10 @@ class Absences:
             self._things.remove(thing)
 
     def _override(self, thing: Thing, stamp_s: float) -> None:
-        """First-hand sight overrides what others had said before it, and counts against them."""
+        """First-hand sight overrides what cameras had said before it, and counts against them."""
         for id, sight in thing.sights.items():
-            if sight.support > 0.0:
-                if not sight.robot and stamp_s - sight.stamp_s < 60.0:
+            if sight.support > 0.0 and not sight.robot:
+                if stamp_s - sight.stamp_s < 60.0:
                     self._fusion.trust.score(id, right=False)
                 thing.belief -= sight.support
                 sight.support = 0.0

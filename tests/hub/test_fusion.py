@@ -89,9 +89,9 @@ def test_an_unseen_mug_in_plain_view_of_a_robot_is_given_up_and_the_camera_loses
         world.observe(batch("cam-1", 0.5 * look, seen("Mug", 2.0, 2.0, 0.9)))
     before = world.trust.probability("cam-1")
     for look in range(24):
-        world.observe(batch("dog-1", 12.0 + 0.5 * look, view=view(0.6, 2.0)))
-        world.delta(12.0 + 0.5 * look)
-    assert _objects(world, 25.0, "Mug") == []
+        world.observe(batch("dog-1", 20.0 + 0.5 * look, view=view(0.8, 2.0)))
+        world.delta(20.0 + 0.5 * look)
+    assert _objects(world, 35.0, "Mug") == []
     assert world.trust.probability("cam-1") < before
 
 
@@ -156,3 +156,14 @@ def test_one_piece_of_furniture_taken_for_two_types_is_one() -> None:
         world.delta(look)
     world.delta(11.0)
     assert [o.type for o in world.snapshot(11.0).objects] == ["Sofa"]
+
+
+def test_what_one_robot_sees_another_that_overlooks_it_does_not_undo() -> None:
+    world = World(flat())
+    for look in range(12):
+        world.observe(batch("dog-2", 0.5 * look, seen("Plate", 2.0, 2.0, 0.78), view=view(0.5, 2.0)))
+    for look in range(60):
+        world.observe(batch("dog-1", 20.0 + 0.5 * look, view=view(0.8, 2.0)))
+        world.delta(20.0 + 0.5 * look)
+    (plate,) = _objects(world, 51.0, "Plate")
+    assert plate.confidence < 0.95

@@ -2,6 +2,7 @@
 
 set positional-arguments
 set quiet
+set no-exit-message
 
 python := justfile_directory() / ".venv/bin/python"
 export PYTHONPATH := justfile_directory()

@@ -27,13 +27,21 @@ def bring_up(site_file: Path, quiet: bool) -> Ready:
     """Start the site's processes. On a fault everything is stopped again. Raises SiteError, LaunchError."""
     site, mesh = install_site(site_file)
     began = time.monotonic()
-    mesh.start(site)
     try:
+        mesh.start(site)
         _wait_for_all(site, mesh, quiet)
+    except ClientError as error:
+        stop_if_up(mesh)
+        raise LaunchError(str(error)) from None
     except (LaunchError, KeyboardInterrupt):
-        mesh.stop()
+        stop_if_up(mesh)
         raise
     return Ready(site, mesh, time.monotonic() - began)
+
+
+def stop_if_up(mesh: Mesh) -> None:
+    if mesh.is_up():
+        mesh.stop()
 
 
 def _wait_for_all(site: Site, mesh: Mesh, quiet: bool) -> None:
@@ -73,8 +81,5 @@ def _look_for_failures(mesh: Mesh) -> None:
     """Raise with the last words of a process that the supervisor has given up."""
     for process in mesh.processes():
         if process.state in _GIVEN_UP:
-            log = mesh.log_dir / f"{process.id}.log"
-            words = log.read_text(errors="replace").strip().splitlines()[-1:] if log.exists() else []
-            raise LaunchError(
-                f"{process.id} ended with code {process.exit_code}: {words[0] if words else process.text}"
-            )
+            code = f" with code {process.exit_code}" if process.exit_code else ""
+            raise LaunchError(f"{process.id} ended{code}: {mesh.last_words(process.id) or process.text}")

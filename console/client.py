@@ -20,6 +20,8 @@ _PATIENCE_S = 20.0
 """A simulated mesh on a busy machine moves on slowly; a terminal can wait for it."""
 _QUIET_S = 2.0
 """Without news for this long, a waiting command asks again: a publication may have been missed."""
+_RESTART_S = 90.0
+"""A hub that is being restarted answers again within this; who waits for a task waits on."""
 
 
 class Client:
@@ -32,8 +34,8 @@ class Client:
         role: Literal["console", "evaluator"] = "console",
         timeout_s: float = 5.0,
     ) -> None:
-        os.environ.setdefault(CREDENTIALS_VARIABLE, str(credentials))
-        self._node: ZenohNode = node_for(site, f"{role}-{secrets.token_hex(3)}", role, timeout_s)
+        own = None if CREDENTIALS_VARIABLE in os.environ else credentials
+        self._node: ZenohNode = node_for(site, f"{role}-{secrets.token_hex(3)}", role, timeout_s, own)
         self._handlers: dict[str, Callable[[Message], None]] = {}
         self._heard: list[Message] = []
 
@@ -79,17 +81,24 @@ class Client:
         """`first`, then every message of this kind as it comes, polled for when it is quiet, until `limit_s`."""
         yield first
         deadline = time.monotonic() + limit_s
-        heard_at = time.monotonic()
+        heard_at = answered_at = time.monotonic()
         while time.monotonic() < deadline:
             self._collect()
             news = [m for m in self._heard if isinstance(m, kind)]
             self._heard.clear()
             if news:
-                heard_at = time.monotonic()
+                heard_at = answered_at = time.monotonic()
                 yield from news
             elif time.monotonic() - heard_at > _QUIET_S:
                 heard_at = time.monotonic()
-                yield poll()
+                try:
+                    update = poll()
+                except ClientError:
+                    if time.monotonic() - answered_at > _RESTART_S:
+                        raise
+                else:
+                    answered_at = time.monotonic()
+                    yield update
 
     def present(self, listen_s: float = 0.3) -> set[str]:
         """Processes whose liveliness tokens are there now."""

@@ -89,7 +89,7 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
     return {
         "seed": seed,
         "instruction": task.instruction,
-        "success": run.judged.success,
+        "success": run.judged.success and bool(run.judged.goals),
         "judged_by": "the evaluator, from ground truth",
         "task_status": task.status,
         "reason": task.refusal.reason if task.refusal else task.reason,

@@ -6,7 +6,7 @@ import typer
 
 from console.client import Client, ClientError
 from console.mesh_commands import Json
-from console.output import emit, fail
+from console.output import WordsError, checked, emit, fail
 from console.places import current_mesh
 from console.task import run_task, task_document, task_text
 from wire.messages.operator import ControlReply, ControlRequest, WhyReply, WhyRequest
@@ -33,7 +33,7 @@ def task(
     try:
         with open_client() as client:
             final = run_task(client, instruction, limit_s, quiet=json_)
-    except (SiteError, ClientError) as error:
+    except (SiteError, ClientError, WordsError) as error:
         fail(str(error), json_)
     emit(task_document(final), task_text(final), json_)
     if final.status != "done":
@@ -44,19 +44,20 @@ def why(thing: Annotated[str, typer.Argument(help="an object: words or its id")]
     """Say where a thing is believed to be, who said so, when, how sure, and who contradicted."""
     try:
         with open_client() as client:
-            reply = client.ask("why", WhyRequest(object=thing), WhyReply)
-    except (SiteError, ClientError) as error:
+            reply = client.ask("why", checked(WhyRequest, object=thing), WhyReply)
+    except (SiteError, ClientError, WordsError) as error:
         fail(str(error), json_)
     emit(reply.model_dump(mode="json"), reply.text, json_)
     if not reply.entries:
         raise typer.Exit(1)
 
 
-def _control(request: ControlRequest, json_: bool) -> None:
+def _control(verb: str, json_: bool, task: str | None = None) -> None:
     try:
+        request = checked(ControlRequest, verb=verb, task=task)
         with open_client() as client:
             reply = client.ask("control", request, ControlReply)
-    except (SiteError, ClientError) as error:
+    except (SiteError, ClientError, WordsError) as error:
         fail(str(error), json_)
     if not reply.ok:
         fail(reply.text, json_)
@@ -65,19 +66,19 @@ def _control(request: ControlRequest, json_: bool) -> None:
 
 def stop(json_: Json = False) -> None:
     """Halt every robot at once and cancel all tasks."""
-    _control(ControlRequest(verb="stop"), json_)
+    _control("stop", json_)
 
 
 def pause(json_: Json = False) -> None:
     """Halt the robots and keep the tasks."""
-    _control(ControlRequest(verb="pause"), json_)
+    _control("pause", json_)
 
 
 def resume(json_: Json = False) -> None:
     """Go on after a pause."""
-    _control(ControlRequest(verb="resume"), json_)
+    _control("resume", json_)
 
 
 def cancel(task: Annotated[str, typer.Argument(help="the task's id")], json_: Json = False) -> None:
     """Cancel one task."""
-    _control(ControlRequest(verb="cancel", task=task), json_)
+    _control("cancel", json_, task)

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from deploy.launch import Mesh
+from deploy.launch import LaunchError, Mesh
 from wire.site import Site, SiteError, load_site
 
 RUN = Path(".run")
@@ -15,10 +15,14 @@ _CURRENT = RUN / "current"
 
 
 def current_mesh() -> Mesh:
-    """The mesh that commands without a name mean: the one started last."""
+    """The mesh that commands without a name mean: the one started last, or when it has ended another that runs."""
     if not _CURRENT.exists():
         raise SiteError("no mesh has been started here yet; `justw up` starts one")
-    return Mesh(_CURRENT.resolve())
+    newest = Mesh(_CURRENT.resolve())
+    if newest.is_up():
+        return newest
+    others = (Mesh(file.parent) for file in sorted(RUN.glob("*/supervisord.conf")))
+    return next((mesh for mesh in others if mesh.is_up()), newest)
 
 
 def known_sites() -> list[Path]:
@@ -40,19 +44,22 @@ def generate_home(seed: int, out: Path, *options: str) -> Path:
     command = [sys.executable, "-m", "sim.generator", "--seed", str(seed), "--out", str(out), *options]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise SiteError(f"the home of seed {seed} could not be generated: {done.stderr.strip()[-300:]}")
+        words = done.stderr.strip().splitlines()[-1:] or ["no reason given"]
+        raise SiteError(f"the home of seed {seed} could not be generated: {words[0].removeprefix('error: ')}")
     return out
 
 
 def install_site(path: Path) -> tuple[Site, Mesh]:
-    """Check the file, give it a run directory, and make that the current mesh."""
+    """Check the file, give it a run directory, and make that the current mesh. Raises SiteError, LaunchError."""
     site = load_site(path)
     run_dir = RUN / site.name
     run_dir.mkdir(parents=True, exist_ok=True)
     mesh = Mesh(run_dir)
+    if mesh.is_up():
+        raise LaunchError(f"the mesh of {site.name} already runs; `justw down` stops it")
     if path.resolve() != mesh.site_file:
         shutil.copyfile(path, mesh.site_file)
-    if site.sim is not None and not mesh.is_up():
+    if site.sim is not None:
         _forget(run_dir)
     _CURRENT.unlink(missing_ok=True)
     _CURRENT.symlink_to(run_dir.name, target_is_directory=True)

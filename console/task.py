@@ -4,7 +4,7 @@ import uuid
 from typing import Any
 
 from console.client import Client
-from console.output import terminal
+from console.output import checked, terminal
 from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState
 
 _RUNNING = ("planning", "running", "paused")
@@ -13,8 +13,9 @@ _RUNNING = ("planning", "running", "paused")
 def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> TaskState:
     """Start the task and wait for its end. Ctrl-C cancels it and the robots stop; returns the last state."""
     task = f"task-{uuid.uuid4().hex[:8]}"
+    request = checked(TaskRequest, task=task, instruction=instruction)
     client.listen("task_state", task)
-    state = client.ask("task", TaskRequest(task=task, instruction=instruction), TaskState)
+    state = client.ask("task", request, TaskState)
     shown: list[str] = []
     try:
         for update in client.messages(TaskState, limit_s, first=state, poll=_poll(client, task)):
@@ -48,7 +49,8 @@ def task_document(state: TaskState) -> dict[str, Any]:
 
 def task_text(state: TaskState) -> str:
     if state.refusal is not None:
-        part = f" ('{state.refusal.part}')" if state.refusal.part else ""
+        named = not state.refusal.part or f"'{state.refusal.part}'" in state.refusal.reason
+        part = "" if named else f" ('{state.refusal.part}')"
         return f"not done: {state.refusal.reason}{part}"
     goals = "\n".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}" for g in state.goals)
     return (

@@ -10,7 +10,7 @@ import typer
 from console.client import ClientError
 from console.demo import demonstrate, summary_text
 from console.mesh_commands import Json
-from console.output import emit, fail, terminal
+from console.output import WordsError, emit, fail, terminal
 from console.places import current_mesh
 from deploy.launch import LaunchError
 from wire.site import Site, SiteError, load_site
@@ -36,7 +36,7 @@ def demo(
     """Bring a home full of cameras and robots up, have one instruction done, judge it, write out/demo/."""
     try:
         summary = demonstrate(seed, out, instruction, limit_s, keep, quiet=json_)
-    except (SiteError, LaunchError, ClientError) as error:
+    except (SiteError, LaunchError, ClientError, WordsError) as error:
         fail(str(error), json_)
     emit(summary, summary_text(summary, out), json_)
     if not summary["success"]:
@@ -50,9 +50,8 @@ def demo_seeds(
     json_: Json = False,
 ) -> None:
     """Run the demo on many seeds; every run is reported, failures with their reason."""
-    first, _, last = seeds.partition("-")
     rows = []
-    for seed in range(int(first), int(last or first) + 1):
+    for seed in _range(seeds, json_):
         try:
             row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
         except (SiteError, LaunchError, ClientError) as error:
@@ -67,6 +66,14 @@ def demo_seeds(
             )
     good = sum(bool(r["success"]) for r in rows)
     emit({"succeeded": good, "of": len(rows), "runs": rows}, f"{good} of {len(rows)} seeds succeeded", json_)
+
+
+def _range(seeds: str, json_: bool) -> range:
+    first, _, last = seeds.partition("-")
+    last = last or first
+    if not (first.isdecimal() and last.isdecimal() and int(first) <= int(last)):
+        fail(f"--seeds {seeds}: give FIRST-LAST, as in 0-19", json_, 2)
+    return range(int(first), int(last) + 1)
 
 
 def _live() -> tuple[Site, str]:

@@ -49,6 +49,8 @@ class Mesh:
         name = hashlib.sha256(str(self.run_dir).encode()).hexdigest()[:12]
         self._socket_dir = Path(tempfile.gettempdir()) / f"r2x-{os.getuid()}-{name}"
 
+        self._old_log_bytes: dict[str, int] = {}
+
     @property
     def site_file(self) -> Path:
         return self.run_dir / "site.toml"
@@ -73,6 +75,7 @@ class Mesh:
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)
         self._socket.unlink(missing_ok=True)
         write_credentials(site, self.credentials_dir)  # before anybody looks for its password
+        self._old_log_bytes = {file.stem: file.stat().st_size for file in self.log_dir.glob("*.log")}
         config = self.run_dir / "supervisord.conf"
         places = Places(self.site_file, self.run_dir, self._socket, self.credentials_dir, sys.executable)
         config.write_text(render(site, places))
@@ -109,6 +112,15 @@ class Mesh:
             )
             for row in rows
         ]  # fmt: skip
+
+    def last_words(self, name: str) -> str:
+        """The last line that a process has logged since the start of this mesh."""
+        log = self.log_dir / f"{name}.log"
+        if not log.exists():
+            return ""
+        with log.open(errors="replace") as stream:
+            stream.seek(self._old_log_bytes.get(name, 0))
+            return "".join(stream.read().strip().splitlines()[-1:])
 
     def restart(self, name: str) -> None:
         self._known(name)

@@ -88,6 +88,12 @@ class Areas:
         if area is not None:
             area.searched, area.source, area.stamp_s, area.touched = True, robot, stamp_s, True
 
+    def remember_searched(self, room: str) -> None:
+        """As an earlier run of the hub knew it; who saw what when is not remembered."""
+        area = self._by_id.get(room)
+        if area is not None:
+            area.searched, area.touched = True, True
+
     def searched(self) -> tuple[str, ...]:
         return tuple(area.room.id for area in self._areas if area.searched)
 

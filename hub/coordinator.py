@@ -42,6 +42,7 @@ class Coordinator:
         self._asked_card_s: dict[str, float] = {}
         self._devices = {p.id for p in site.process if p.role in ("robot", "cctv")}
         self._others = {p.id for p in site.process} - self._devices
+        self._planners = {p.id for p in site.process if p.role == "planner"}
         self._due = {"delta": 0.0, "traffic": 0.0, "snapshot": 0.0, "state": 0.0}
         self._now_s = 0.0
         self._orders = 0
@@ -136,6 +137,8 @@ class Coordinator:
         if not event.alive:
             self.world.fleet.gone(event.process)
             self._conductor.lost(event.process, now_s)
+        elif event.process in self._planners:
+            self._voice.planner_came()
         elif event.process in self._devices or (event.process not in self._others and event.process != self._id):
             self._asked_card_s[event.process] = now_s
             self._voice.ask_card(event.process)

@@ -38,7 +38,7 @@ def read_world(world: World, text: str) -> None:
     for robot, item in data["hands"].items():
         world.fleet.robot(robot).inventory = item
     for room in data["searched"]:
-        world.areas.search_done(room, "", 0.0)
+        world.areas.remember_searched(room)
     world.trust.restore({source: (right, wrong) for source, (right, wrong) in data["trust"].items()})
     world.seq = data["seq"]
     world.things.merged.update(data["merged"])

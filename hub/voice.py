@@ -18,6 +18,8 @@ class Voice:
     def __init__(self, node: Node, epoch: int) -> None:
         self._node, self._epoch = node, epoch
         self._waiting: dict[int, Answered] = {}
+        self._planning = 0
+        """Number of the newest question to the planner."""
         self._changed: dict[str, Task] = {}
         self._events = 0
         self.on_plan: Callable[[PlanReply | None, str], None] = lambda reply, error: None
@@ -32,12 +34,17 @@ class Voice:
             handler(reply, now_s)
 
     def ask_plan(self, request: PlanRequest) -> None:
-        number = self._node.ask("make_plan", request)
+        self._planning = number = self._node.ask("make_plan", request)
 
         def heard(reply: Reply, now_s: float) -> None:
             self.on_plan(reply.message if isinstance(reply.message, PlanReply) else None, reply.error)
 
         self._waiting[number] = heard
+
+    def planner_came(self) -> None:
+        """A planner that has just come knows nothing of what was asked before: do not wait for its answer."""
+        if self._waiting.pop(self._planning, None) is not None:
+            self.on_plan(None, "it went away before it answered")
 
     def command(self, command: Command) -> None:
         self._command(command, _TRIES)

@@ -38,11 +38,11 @@ def credentials_dir(site: Site) -> Path:
     return Path(os.environ.get(CREDENTIALS_VARIABLE) or Path(".run") / site.name / "credentials")
 
 
-def link_for(site: Site, process: str, timeout_s: float = 10.0) -> Link:
-    """The link of one process of this site."""
+def link_for(site: Site, process: str, timeout_s: float = 10.0, credentials: Path | None = None) -> Link:
+    """The link of one process of this site; `credentials` where its password lies elsewhere than usual."""
     if not site.router.secured:
         return Link(site.router.endpoint, site.realm, timeout_s=timeout_s)
-    folder = credentials_dir(site)
+    folder = credentials or credentials_dir(site)
     # a console's id is `console-<something>`; all of them share the user `console`
     candidates = (process, process.partition("-")[0])
     for user in candidates:

@@ -3,6 +3,7 @@
 import json
 import sys
 import time
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
@@ -252,9 +253,9 @@ class ZenohNode:
         self.inbox.put(letter)
 
 
-def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0) -> ZenohNode:
+def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0, credentials: Path | None = None) -> ZenohNode:
     """A node that follows no ticks: for tools, views and evaluators."""
-    return ZenohNode(link_for(site, id, timeout_s), id, role)
+    return ZenohNode(link_for(site, id, timeout_s, credentials), id, role)
 
 
 def _read_stamp(attachment: zenoh.ZBytes | None) -> tuple[int, int, str] | None:

@@ -70,7 +70,7 @@ class Process(Message):
     role: Literal["router", "hub", "planner", "cctv", "robot", "sim", "view"]
     module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$")
     host: str = "localhost"
-    args: tuple[str, ...] = ()
+    args: tuple[Annotated[str, Field(pattern=r"^[^\x00-\x1f]*$")], ...] = ()
     autostart: bool = True
 
 
@@ -129,7 +129,8 @@ class Hub(Message):
 
 
 class Site(Message):
-    name: str
+    name: str = Field(pattern=r"^[^./;\"\x00-\x1f][^/;\"\x00-\x1f]{0,59}$")
+    """Also the name of the folder in which its mesh keeps its things: no slash, no dot in front."""
     realm: Id = "r2x"
     router: Router = Router()
     clock: Clock = Clock()
@@ -151,6 +152,8 @@ def load_site(path: Path) -> Site:
         data = tomllib.loads(path.read_text())
     except FileNotFoundError:
         raise SiteError(f"{path}: no such site file; `justw sites` lists the ones there are") from None
+    except OSError as error:
+        raise SiteError(f"{path}: cannot be read: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SiteError(f"{path}: not valid TOML: {error}") from None
     return parse_site(data, str(path))
@@ -162,7 +165,7 @@ def parse_site(data: dict[str, Any], where: str) -> Site:
         site = Site.model_validate(_tuples(data))
     except ValidationError as error:
         raise SiteError(f"{where}: {describe(error, Site)}") from None
-    faults = [*_repeated_ids(site), *_unknown_rooms(site)]
+    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site)]
     if faults:
         raise SiteError(f"{where}: {'; '.join(faults)}")
     return site
@@ -190,6 +193,17 @@ def _unknown_rooms(site: Site) -> Iterator[str]:
     for place, room in named:
         if room not in known:
             yield f"{place}: there is no room {room}; the rooms are {', '.join(sorted(known))}"
+
+
+def _bad_ports(site: Site) -> Iterator[str]:
+    router = int(site.router.endpoint.rpartition(":")[2])
+    if not 0 < router < 65536:
+        yield f"router.endpoint: {router} is no port; give 1 to 65535"
+    ports = {"router.endpoint": router, "view.grpc_port": site.view.grpc_port, "view.web_port": site.view.web_port}
+    counts = Counter(ports.values())
+    shared = [place for place, port in ports.items() if counts[port] > 1]
+    if shared:
+        yield f"{' and '.join(shared)}: the same port {ports[shared[0]]}, give each its own"
 
 
 def _tuples(value: Any) -> Any:

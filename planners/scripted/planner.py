@@ -1,6 +1,6 @@
 """The default planner: words to goals through the grammar, goals to a plan; no model, no tokens."""
 
-from planners.scripted.goals import read_goals
+from planners.scripted.goals import TEXT_LIMIT, read_goals
 from planners.scripted.syntax import Unclear
 from planners.tasks.planning import TaskPlanner
 from wire.messages.plan import PlanReply, PlanRequest, Refusal
@@ -18,6 +18,8 @@ class ScriptedPlanner:
         try:
             goals = request.goals if request.goals is not None else read_goals(request.instruction, request.world)
         except Unclear as unclear:
-            refusal = Refusal(reason=unclear.reason, part=unclear.part, question=unclear.question)
+            refusal = Refusal(
+                reason=unclear.reason[:TEXT_LIMIT], part=unclear.part[:TEXT_LIMIT], question=unclear.question
+            )
             return PlanReply(task=request.task, epoch=request.epoch, refusal=refusal)
         return self._tasks.plan(request, goals)

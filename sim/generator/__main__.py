@@ -2,10 +2,12 @@
 
 import argparse
 import sys
+import tomllib
 from pathlib import Path
 
 from sim.generator.home import make_home
 from sim.generator.site_file import Options, write_site
+from wire.site import parse_site
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -25,16 +27,19 @@ def main(argv: list[str] | None = None) -> int:
     arguments = vars(parser.parse_args(argv))
     seed, out = arguments.pop("seed"), arguments.pop("out")
     if seed < 0:
-        parser.error(f"--seed {seed}: give 0 or more")
+        parser.exit(2, f"error: --seed {seed}: give 0 or more\n")
     try:
         text = write_site(make_home(seed), Options(**arguments))
+        parse_site(tomllib.loads(text), "the options")
+        if out is None:
+            sys.stdout.write(text)
+        else:
+            out.parent.mkdir(parents=True, exist_ok=True)
+            out.write_text(text)
     except ValueError as error:
-        parser.error(str(error))
-    if out is None:
-        sys.stdout.write(text)
-    else:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        out.write_text(text)
+        parser.exit(2, f"error: {error}\n")
+    except OSError as error:
+        parser.exit(1, f"error: {error.filename}: cannot be written: {error.strerror}\n")
     return 0
 
 

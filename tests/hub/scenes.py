@@ -42,7 +42,10 @@ def flat() -> Site:
             Robot(id="dog-1", kind="quadruped", start_m=(1.0, 1.0)),
             Robot(id="dog-2", kind="quadruped", start_m=(6.0, 1.0)),
         ),
-        process=(Process(id="hub", role="hub", module="hub"),),
+        process=(
+            Process(id="hub", role="hub", module="hub"),
+            Process(id="planner", role="planner", module="planners"),
+        ),
     )
 
 

@@ -8,6 +8,7 @@ from hub.coordinator import Coordinator
 from hub.journal import Journal
 from tests.hub.scenes import flat, seen
 from tests.hub.toys import ToyCamera, ToyPlanner, ToyRobot
+from wire.bus import Event
 from wire.loopback import LoopbackMesh
 from wire.messages.goal import Goal, Selector
 from wire.messages.observation import ObjectObservation
@@ -252,6 +253,30 @@ def test_a_robot_that_dies_is_planned_around() -> None:
     assert state.status == "done"
     assert state.replans >= 1
     assert state.fails == 0
+
+
+class _Silent(ToyPlanner):
+    """Dies before it answers."""
+
+    def step(self, now_s: float, events: Sequence[Event]) -> None: ...
+
+
+def test_a_planner_that_dies_while_it_plans_is_asked_again_as_soon_as_it_is_back() -> None:
+    home = _Flat(_fetch)
+    home.mesh.run(1.0)
+    home.mesh.remove("planner", stop=False)
+    home.mesh.add(_Silent(_fetch), "planner", "planner")
+    home.mesh.run(2.0)
+    home.ask()
+    home.mesh.run(1.0)
+    home.mesh.remove("planner", stop=False)
+    home.mesh.run(2.0)
+    home.mesh.add(home.planner, "planner", "planner")
+    home.mesh.run(2.0)
+    assert home.planner.requests
+    state = home.until_end()
+    assert state.status == "done"
+    assert state.fails == 1
 
 
 def test_a_killed_hub_goes_on_without_repeating_a_finished_step(tmp_path: Path) -> None:

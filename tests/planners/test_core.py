@@ -58,3 +58,11 @@ def test_a_large_world_is_planned_in_time() -> None:
         assert reply.plan is not None
         assert len(reply.plan.nodes) > 40
     assert sorted(took)[-2] < 0.8
+
+
+def test_a_refusal_of_endless_words_is_still_a_message() -> None:
+    world = furnished(1, ("kitchen",)).world()
+    request = PlanRequest(task="t", epoch=1, instruction="xyzzy" * 399, world=world, now_s=0.0)
+    reply = PLANNERS["scripted"](site()).make_plan(request)
+    assert reply.refusal is not None
+    assert reply.refusal.reason.startswith("I do not understand")

@@ -58,6 +58,11 @@ def test_a_good_file(tmp_path: Path) -> None:
             "camera.0.room: there is no room attic; the rooms are kitchen",
         ),
         ("yaw_deg = 45.0", 'yaw_deg = "45"', "camera.0.yaw_deg"),
+        ('name = "home"', 'name = "../home"', "name"),
+        ('name = "home"', 'name = ""', "name"),
+        ('module = "hub"', 'module = "hub"\nargs = ["a\\nb"]', "process.0.args.0"),
+        ("[[room]]", '[router]\nendpoint = "tcp/127.0.0.1:99999"\n[[room]]', "router.endpoint: 99999 is no port"),
+        ("[[room]]", "[view]\ngrpc_port = 7447\n[[room]]", "router.endpoint and view.grpc_port: the same port 7447"),
         ('id = "hub"', 'id = "Hub!"', "process.0.id"),
         ('role = "hub"', 'role = "hup"', "process.0.role"),
         ("[4.0, 0.0], [4.0, 3.0]", "[4.0, 0.0]", "room.0.polygon_m"),
@@ -83,3 +88,8 @@ def test_no_toml_at_all(tmp_path: Path) -> None:
 def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(SiteError, match="no such site file"):
         load_site(tmp_path / "none.toml")
+
+
+def test_a_folder_is_no_site_file(tmp_path: Path) -> None:
+    with pytest.raises(SiteError, match="cannot be read"):
+        load_site(tmp_path)

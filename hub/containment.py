@@ -24,10 +24,11 @@ def parent_of(thing: Thing, things: Things) -> str | None:
     bottom_m = thing.z - known.height_m / 2.0
     best: tuple[float, str] | None = None
     for other in things.near(thing.x, thing.y, _REACH_M):
-        if other is thing or other.receptacle == thing.id or other.locked or closed(other):
-            continue  # what is seen is not in anything that is shut
-        if known.kind == "moveable" and other.shape.receptacle_mode != "on":
+        mode = other.shape.receptacle_mode
+        if mode is None or other is thing or other.receptacle == thing.id or other.locked:
             continue
+        if mode != "on" and (known.kind == "moveable" or closed(other)):
+            continue  # what is seen is not in anything that is shut
         fit = _fit(thing, known, bottom_m, other)
         if fit > _LEAST and (best is None or (fit, other.id) > best):
             best = (fit, other.id)

@@ -18,6 +18,7 @@ M = TypeVar("M", bound=Message)
 ClientError = MeshError
 _PATIENCE_S = 20.0
 """A simulated mesh on a busy machine moves on slowly; a terminal can wait for it."""
+_BETWEEN_TRIES_S = 1.0
 _QUIET_S = 2.0
 """Without news for this long, a waiting command asks again: a publication may have been missed."""
 _RESTART_S = 90.0
@@ -60,22 +61,29 @@ class Client:
         self._handlers[topic] = handle
         self._node.subscribe(topic)
 
-    def ask(self, service: str, request: Message, reply: type[M], id: str = "", tries: int = 2) -> M:
+    def ask(self, service: str, request: Message, reply: type[M], id: str = "", tries: int = 3) -> M:
         """Ask and wait. Requests are idempotent, so that a lost answer is asked for again. Raises ClientError."""
         error = ""
-        for _ in range(tries):
-            number = self._node.ask(service, request, id, _PATIENCE_S)
-            while True:
-                for event in self._collect():
-                    if isinstance(event, Reply) and event.ask == number:
-                        if isinstance(event.message, reply):
-                            return event.message
-                        error = event.error
-                        break
-                else:
-                    continue
-                break
+        for attempt in range(tries):
+            if attempt:
+                self._linger(_BETWEEN_TRIES_S)
+            answer = self._answer(self._node.ask(service, request, id, _PATIENCE_S))
+            if isinstance(answer.message, reply):
+                return answer.message
+            error = answer.error
         raise ClientError(f"{service}: {error or 'no answer'}; `justw status` tells which processes run")
+
+    def _answer(self, number: int) -> Reply:
+        while True:
+            for event in self._collect():
+                if isinstance(event, Reply) and event.ask == number:
+                    return event
+
+    def _linger(self, seconds: float) -> None:
+        """Go on listening for a while: a process that was just restarted is not there at once."""
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            self._collect()
 
     def messages(self, kind: type[M], limit_s: float, first: M, poll: Callable[[], M]) -> Iterator[M]:
         """`first`, then every message of this kind as it comes, polled for when it is quiet, until `limit_s`."""

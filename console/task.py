@@ -7,6 +7,8 @@ from console.client import Client
 from console.output import checked, terminal
 from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState
 
+HUB_BACK_TRIES = 30
+"""A hub that is restarted in the middle of a task is waited for."""
 _RUNNING = ("planning", "running", "paused")
 
 
@@ -32,7 +34,7 @@ def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> T
 
 def _poll(client: Client, task: str) -> Any:
     """Asks for the state when nothing came for a while: the publication may have been missed while reconnecting."""
-    return lambda: client.ask("task_query", TaskQuery(task=task), TaskState)
+    return lambda: client.ask("task_query", TaskQuery(task=task), TaskState, tries=HUB_BACK_TRIES)
 
 
 def _show(state: TaskState, shown: list[str]) -> None:

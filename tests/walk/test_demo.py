@@ -14,6 +14,7 @@ from console.bring_up import Ready, bring_up
 from console.client import Client
 from console.demo import demonstrate
 from console.places import free_port, generate_home
+from console.task import HUB_BACK_TRIES
 from wire.messages.command import Command
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
 from wire.messages.truth import JudgeReply, JudgeRequest
@@ -65,7 +66,7 @@ def test_a_killed_hub_goes_on_and_repeats_no_finished_step(tmp_path: Path, monke
                 before = _done_steps(ready.mesh.run_dir)
                 os.kill(hub, signal.SIGKILL)
                 deadline = time.monotonic() + 200
-                while (state := client.ask("task_query", TaskQuery(task="task-1"), TaskState, tries=5)).status in (
+                while (state := client.ask("task_query", TaskQuery(task="task-1"), TaskState, tries=HUB_BACK_TRIES)).status in (
                     "planning", "running",
                 ):  # fmt: skip
                     assert time.monotonic() < deadline, state.log

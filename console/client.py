@@ -1,6 +1,5 @@
 """A terminal's own session with the mesh: ask, listen, see who is there."""
 
-import os
 import secrets
 import time
 from collections.abc import Callable, Iterator
@@ -9,7 +8,7 @@ from types import TracebackType
 from typing import Literal, Self, TypeVar
 
 from wire.bus import Event, Presence, Received, Reply
-from wire.link import CREDENTIALS_VARIABLE, MeshError
+from wire.link import MeshError
 from wire.model import Message
 from wire.node import ZenohNode, node_for
 from wire.site import Site
@@ -21,8 +20,6 @@ _PATIENCE_S = 20.0
 _BETWEEN_TRIES_S = 1.0
 _QUIET_S = 2.0
 """Without news for this long, a waiting command asks again: a publication may have been missed."""
-_RESTART_S = 90.0
-"""A hub that is being restarted answers again within this; who waits for a task waits on."""
 
 
 class Client:
@@ -35,8 +32,7 @@ class Client:
         role: Literal["console", "evaluator"] = "console",
         timeout_s: float = 5.0,
     ) -> None:
-        own = None if CREDENTIALS_VARIABLE in os.environ else credentials
-        self._node: ZenohNode = node_for(site, f"{role}-{secrets.token_hex(3)}", role, timeout_s, own)
+        self._node: ZenohNode = node_for(site, f"{role}-{secrets.token_hex(3)}", role, timeout_s, credentials)
         self._handlers: dict[str, Callable[[Message], None]] = {}
         self._heard: list[Message] = []
 
@@ -89,24 +85,17 @@ class Client:
         """`first`, then every message of this kind as it comes, polled for when it is quiet, until `limit_s`."""
         yield first
         deadline = time.monotonic() + limit_s
-        heard_at = answered_at = time.monotonic()
+        heard_at = time.monotonic()
         while time.monotonic() < deadline:
             self._collect()
             news = [m for m in self._heard if isinstance(m, kind)]
             self._heard.clear()
             if news:
-                heard_at = answered_at = time.monotonic()
+                heard_at = time.monotonic()
                 yield from news
             elif time.monotonic() - heard_at > _QUIET_S:
                 heard_at = time.monotonic()
-                try:
-                    update = poll()
-                except ClientError:
-                    if time.monotonic() - answered_at > _RESTART_S:
-                        raise
-                else:
-                    answered_at = time.monotonic()
-                    yield update
+                yield poll()
 
     def present(self, listen_s: float = 0.3) -> set[str]:
         """Processes whose liveliness tokens are there now."""

@@ -1,71 +1,17 @@
 """Algorithm 1 over the in-memory mesh: toy robots, a camera, a list of plans."""
 
-import random
 from collections.abc import Sequence
 from pathlib import Path
 
-from hub.coordinator import Coordinator
-from hub.journal import Journal
-from tests.hub.scenes import flat, seen
-from tests.hub.toys import ToyCamera, ToyPlanner, ToyRobot
+from tests.hub.home import GOALS, Flat
+from tests.hub.scenes import seen
+from tests.hub.toys import ToyPlanner
 from wire.bus import Event
-from wire.loopback import LoopbackMesh
 from wire.messages.goal import Goal, Selector
 from wire.messages.observation import ObjectObservation
-from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState, WhyRequest
+from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, WhyRequest
 from wire.messages.plan import Plan, PlanNode, PlanReply, PlanRequest, Refusal
 from wire.messages.world import ObjectState
-
-GOALS = (Goal(predicate="in", subject=Selector(type="Apple"), object=Selector(type="Fridge"), text="apple in fridge"),)
-
-
-class _Flat:
-    """Mesh, robots, camera; the apple is seen until it has been taken."""
-
-    def __init__(self, answer, journal: Path | None = None, fail=lambda c: None) -> None:
-        self.site = flat()
-        self.journal = journal
-        self.mesh = LoopbackMesh()
-        self.robots = [ToyRobot(self.site, "dog-1", (1.0, 1.0), fail), ToyRobot(self.site, "dog-2", (6.0, 1.0), fail)]
-        self.random = random.Random(3)
-        self.planner = ToyPlanner(answer)
-        for robot in self.robots:
-            self.mesh.add(robot, robot.id, "robot")
-        self.mesh.add(ToyCamera("cam-1", self._look), "cctv-1", "cctv")
-        self.mesh.add(self.planner, "planner", "planner")
-        self.hub = self.start_hub()
-
-    def start_hub(self) -> Coordinator:
-        self.hub = Coordinator(self.site, "hub", Journal(self.journal))
-        self.mesh.add(self.hub, "hub", "hub")
-        return self.hub
-
-    def _look(self, now_s: float) -> Sequence[ObjectObservation]:
-        def noisy(type: str, x: float, y: float, z: float, track: str, **props: float) -> ObjectObservation:
-            dx, dy = self.random.gauss(0.0, 0.05), self.random.gauss(0.0, 0.05)
-            return seen(type, x + dx, y + dy, z, track, **props)
-
-        things = [noisy("DiningTable", 2.0, 2.0, 0.38, "table"), noisy("Fridge", 6.5, 3.4, 0.92, "fridge", isOpen=0.05)]
-        if not any(r.code == "ok" and "pickup" in self.actions(r.goal_id) for s in self.robots for r in s.results):
-            things.append(noisy("Apple", 2.1, 2.2, 0.83, "apple"))
-        return things
-
-    def actions(self, goal_id: str) -> str:
-        return next((body for _, kind, body in self.hub._journal.log() if kind == "command" and goal_id in body), "")
-
-    def ask(self, instruction: str = "put the apple in the fridge") -> TaskState:
-        state = self.mesh.call("task", TaskRequest(task="t-1", instruction=instruction))
-        assert isinstance(state, TaskState)
-        return state
-
-    def until_end(self, seconds: float = 120.0) -> TaskState:
-        for _ in range(round(seconds)):
-            self.mesh.run(1.0)
-            state = self.mesh.call("task_query", TaskQuery(task="t-1"))
-            assert isinstance(state, TaskState)
-            if state.status in ("done", "failed", "refused", "cancelled"):
-                return state
-        raise AssertionError(state)
 
 
 def _find(request: PlanRequest, type: str) -> ObjectState:
@@ -98,7 +44,7 @@ def _fetch(request: PlanRequest) -> PlanReply:
 
 
 def test_an_apple_goes_into_the_fridge() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end()
@@ -111,7 +57,7 @@ def test_an_apple_goes_into_the_fridge() -> None:
 
 
 def test_open_and_pickup_are_done_by_two_robots_at_once() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     home.until_end()
@@ -122,7 +68,7 @@ def test_open_and_pickup_are_done_by_two_robots_at_once() -> None:
 
 def test_a_failed_action_halts_and_is_planned_again() -> None:
     failing = iter(["blocked"])
-    home = _Flat(_fetch, fail=lambda c: next(failing, None) if c.action == "pickup" else None)
+    home = Flat(_fetch, fail=lambda c: next(failing, None) if c.action == "pickup" else None)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end()
@@ -132,7 +78,7 @@ def test_a_failed_action_halts_and_is_planned_again() -> None:
 
 
 def test_max_fails_ends_the_task_with_the_reason() -> None:
-    home = _Flat(_fetch, fail=lambda c: "blocked" if c.action == "pickup" else None)
+    home = Flat(_fetch, fail=lambda c: "blocked" if c.action == "pickup" else None)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end(300.0)
@@ -143,7 +89,7 @@ def test_max_fails_ends_the_task_with_the_reason() -> None:
 
 def test_a_refusal_ends_the_task_and_nothing_moves() -> None:
     refusal = Refusal(reason="there is no unicorn in this house", part="unicorn")
-    home = _Flat(lambda r: PlanReply(task=r.task, epoch=r.epoch, refusal=refusal))
+    home = Flat(lambda r: PlanReply(task=r.task, epoch=r.epoch, refusal=refusal))
     home.mesh.run(2.0)
     home.ask("feed the unicorn")
     state = home.until_end(20.0)
@@ -159,7 +105,7 @@ def test_an_impossible_plan_is_refused_with_reasons_for_the_planner() -> None:
         plan = Plan(id="p-1", task=request.task, planner="toy", goals=GOALS, nodes=nodes)
         return PlanReply(task=request.task, epoch=request.epoch, plan=plan)
 
-    home = _Flat(put_first)
+    home = Flat(put_first)
     home.mesh.run(2.0)
     home.ask()
     state = home.until_end(60.0)
@@ -181,7 +127,7 @@ def test_a_search_ends_when_the_looked_for_thing_appears() -> None:
             plan = Plan(id="p-1", task=request.task, planner="toy", goals=(), nodes=nodes, complete=False)
         return PlanReply(task=request.task, epoch=request.epoch, plan=plan)
 
-    home = _Flat(answer)
+    home = Flat(answer)
     look = home._look
 
     def with_mug(now_s: float) -> Sequence[ObjectObservation]:
@@ -198,7 +144,7 @@ def test_a_search_ends_when_the_looked_for_thing_appears() -> None:
 
 
 def test_stop_halts_robots_and_cancels() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(2.0)
@@ -212,7 +158,7 @@ def test_stop_halts_robots_and_cancels() -> None:
 
 
 def test_pause_and_resume() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(2.0)
@@ -224,7 +170,7 @@ def test_pause_and_resume() -> None:
 
 
 def test_the_same_task_id_again_is_the_same_task() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     again = home.ask("something else")
@@ -233,7 +179,7 @@ def test_the_same_task_id_again_is_the_same_task() -> None:
 
 
 def test_a_second_task_waits_for_the_first() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     second = home.mesh.call("task", TaskRequest(task="t-2", instruction="again"))
@@ -244,7 +190,7 @@ def test_a_second_task_waits_for_the_first() -> None:
 
 
 def test_a_robot_that_dies_is_planned_around() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(1.0)
@@ -262,7 +208,7 @@ class _Silent(ToyPlanner):
 
 
 def test_a_planner_that_dies_while_it_plans_is_asked_again_as_soon_as_it_is_back() -> None:
-    home = _Flat(_fetch)
+    home = Flat(_fetch)
     home.mesh.run(1.0)
     home.mesh.remove("planner", stop=False)
     home.mesh.add(_Silent(_fetch), "planner", "planner")
@@ -281,7 +227,7 @@ def test_a_planner_that_dies_while_it_plans_is_asked_again_as_soon_as_it_is_back
 
 def test_a_killed_hub_goes_on_without_repeating_a_finished_step(tmp_path: Path) -> None:
     for killed_after_s in (1.0, 4.0, 7.0, 10.0, 13.0):
-        home = _Flat(_fetch, journal=tmp_path / f"{killed_after_s}.db")
+        home = Flat(_fetch, journal=tmp_path / f"{killed_after_s}.db")
         home.mesh.run(3.0)
         home.ask()
         home.mesh.run(killed_after_s)
@@ -297,7 +243,7 @@ def test_a_killed_hub_goes_on_without_repeating_a_finished_step(tmp_path: Path) 
 
 def test_two_equal_runs_write_equal_journals() -> None:
     def play() -> list[tuple[float, str, str]]:
-        home = _Flat(_fetch)
+        home = Flat(_fetch)
         home.mesh.run(3.0)
         home.ask()
         home.until_end()

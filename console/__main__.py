@@ -2,10 +2,11 @@
 
 import signal
 
-from console.app import app
-
 if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while nothing has begun, there is nothing to say about its end
+    from console.app import app
+
     # Whoever ends a command, or the terminal that it runs in, means what Ctrl-C means: nothing is left behind.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
-    signal.signal(signal.SIGHUP, signal.default_int_handler)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.default_int_handler)
     app(prog_name="justw")

@@ -11,7 +11,7 @@ from console.client import Client
 from console.floor_map import FloorMap
 from console.output import terminal
 from console.places import free_port, generate_home
-from console.task import run_task
+from console.task import RUNNING, run_task
 from deploy.launch import ProcessInfo
 from wire.messages.command import RobotReport
 from wire.messages.operator import TaskState
@@ -92,7 +92,7 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
         "success": run.judged.success and bool(run.judged.goals),
         "judged_by": "the evaluator, from ground truth",
         "task_status": task.status,
-        "reason": task.refusal.reason if task.refusal else task.reason,
+        "reason": _reason(task),
         "goals": [
             {"goal": g.goal.text or g.goal.predicate, "predicate": g.goal.model_dump(mode="json"), "true": g.holds}
             for g in run.judged.goals
@@ -111,6 +111,12 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
         "times_real_time": round(run.sim_s / run.wall_s, 2) if run.wall_s > 0 else None,
         "processes": {p.id: {"state": p.state.lower(), "exit_code": p.exit_code} for p in run.ended},
     }
+
+
+def _reason(task: TaskState) -> str:
+    if task.refusal is not None:
+        return task.refusal.reason
+    return "it took too long and was given up" if task.status in RUNNING else task.reason
 
 
 def _draw(ready: Ready, run: Run, path: Path) -> None:

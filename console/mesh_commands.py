@@ -134,4 +134,9 @@ def sites(json_: Json = False) -> None:
         + (str(r["error"]) if "error" in r else f"{r['rooms']} rooms, {r['cameras']} cameras, {r['robots']} robots")
         for r in rows
     )
-    emit({"sites": rows}, text or "no site files in deploy/sites", json_)
+    emit(
+        {"sites": rows},
+        text
+        or "no site files in deploy/sites; `justw home --seed 7 --out my.toml` writes one, `justw up my.toml` starts it",
+        json_,
+    )

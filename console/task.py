@@ -9,7 +9,9 @@ from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, Task
 
 HUB_BACK_TRIES = 30
 """A hub that is restarted in the middle of a task is waited for."""
-_RUNNING = ("planning", "running", "paused")
+_HALT_S = 30.0
+"""How long a cancelled task may take to come to rest."""
+RUNNING = ("planning", "running", "paused")
 
 
 def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> TaskState:
@@ -24,11 +26,22 @@ def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> T
             state = update
             if not quiet:
                 _show(state, shown)
-            if state.status not in _RUNNING:
+            if state.status not in RUNNING:
                 break
     except KeyboardInterrupt:
-        client.ask("control", ControlRequest(verb="cancel", task=task), ControlReply)
-        state = client.ask("task_query", TaskQuery(task=task), TaskState)
+        state = _cancel(client, task)
+    return state
+
+
+def _cancel(client: Client, task: str) -> TaskState:
+    """Cancel, and wait until the robots stand still."""
+    client.ask("control", ControlRequest(verb="cancel", task=task), ControlReply)
+    poll = _poll(client, task)
+    state: TaskState = poll()
+    for update in client.messages(TaskState, _HALT_S, first=state, poll=poll):
+        state = update
+        if state.status not in RUNNING:
+            break
     return state
 
 

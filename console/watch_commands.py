@@ -38,6 +38,8 @@ def demo(
         summary = demonstrate(seed, out, instruction, limit_s, keep, quiet=json_)
     except (SiteError, LaunchError, ClientError, WordsError) as error:
         fail(str(error), json_)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}", json_)
     emit(summary, summary_text(summary, out), json_)
     if not summary["success"]:
         raise typer.Exit(1)
@@ -77,7 +79,9 @@ def _range(seeds: str, json_: bool) -> range:
 
 
 def _live() -> tuple[Site, str]:
-    site = load_site(current_mesh().site_file)
+    mesh = current_mesh()
+    mesh.processes()  # whether it runs
+    site = load_site(mesh.site_file)
     return site, f"rerun+http://127.0.0.1:{site.view.grpc_port}/proxy"
 
 
@@ -87,7 +91,7 @@ def view(
     """Show the fused world live: in a browser (prints the address), or in a window where there is a display."""
     try:
         site, url = _live()
-    except SiteError as error:
+    except (SiteError, LaunchError) as error:
         fail(str(error))
     has_display = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
     if native and not has_display:
@@ -111,9 +115,13 @@ def record(
     """Record what the view shows, from now until Ctrl-C."""
     try:
         _, url = _live()
-    except SiteError as error:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except (SiteError, LaunchError) as error:
         fail(str(error))
-    file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"{file} cannot be written: {error.strerror}")
+    if file.suffix != ".rrd":
+        fail(f"{file}: the name of a recording ends in .rrd", code=2)
     terminal.print(f"recording to {file} until Ctrl-C", markup=False)
     raw = file.with_suffix(".part.rrd")
     process = subprocess.Popen([RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"])
@@ -125,6 +133,8 @@ def record(
     if not raw.exists():
         fail(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
     # A stream that is cut has no footer; this writes it.
-    subprocess.run([RERUN, "rrd", "optimize", str(raw), "-o", str(file)], check=True, capture_output=True)
+    whole = [RERUN, "rrd", "optimize", str(raw), "-o", str(file)]
+    if subprocess.run(whole, check=False, capture_output=True).returncode != 0:
+        fail(f"{file} cannot be written; what was recorded lies in {raw}")
     raw.unlink()
     terminal.print(f"wrote {file}", markup=False)

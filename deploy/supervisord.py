@@ -5,6 +5,7 @@ import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
+from wire.process import SUPERVISED_VARIABLE
 from wire.site import Process, Site
 
 _FIRST = {"router": 10, "sim": 20}
@@ -88,6 +89,7 @@ def _environment(places: Places) -> str:
     values = {
         "R2X_CREDENTIALS": str(places.credentials),
         "R2X_STATE": str(places.run_dir),
+        SUPERVISED_VARIABLE: "1",
         "PYTHONPATH": os.environ.get("PYTHONPATH", ""),
         "PYTHONUNBUFFERED": "1",
         "OMP_NUM_THREADS": "1",

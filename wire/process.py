@@ -33,6 +33,8 @@ log = logging.getLogger("process")
 Build = Callable[..., Core]
 """build(site, process_id, **further arguments) -> Core"""
 EXIT_FAULT, EXIT_USAGE, EXIT_BUG = 1, 2, 70
+SUPERVISED_VARIABLE = "R2X_SUPERVISED"
+"""Set by a supervisor that leads its own session."""
 _PR_SET_PDEATHSIG = 1
 
 
@@ -145,8 +147,12 @@ def release_startup_memory() -> None:
 
 
 def die_with_parent() -> None:
-    """Have the kernel send SIGTERM when the parent dies, so that a killed supervisor leaves no orphans."""
-    parent = os.getppid()
+    """Have the kernel send SIGTERM when the parent dies, so that a killed supervisor leaves no orphans.
+
+    It may have died while this process was still loading: a supervisor leads the session of its processes.
+    """
+    supervised = SUPERVISED_VARIABLE in os.environ
+    parent = os.getsid(0) if supervised else os.getppid()
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
     if os.getppid() != parent:
         sys.exit("the parent process has died")

@@ -1,5 +1,6 @@
 """The view as a process core: every topic it reads, and what it draws of it."""
 
+import socket
 from collections.abc import Callable, Sequence
 
 import rerun as rr
@@ -7,7 +8,7 @@ import rerun as rr
 from hub.view.blueprint import blueprint
 from hub.view.drawing import Drawing
 from hub.view.house import draw_house
-from wire.bus import Event, Node, Received, Reply
+from wire.bus import CannotRun, Event, Node, Received, Reply
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
 from wire.messages.observation import EventLog, ObservationBatch
@@ -68,8 +69,22 @@ class ViewCore:
         self._rec.disconnect()
 
 
+def check_port(port: int) -> None:
+    """Rerun only logs that it cannot serve: say it before, so that nobody looks at somebody else's view."""
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError as error:
+            raise CannotRun(
+                f"the view cannot listen on 127.0.0.1:{port} ({error.strerror}): stop what uses that port "
+                f"(`ss -ltnp 'sport = :{port}'` names it), or set another one as view.grpc_port in the site file"
+            ) from None
+
+
 def open_recording(site: Site) -> rr.RecordingStream:
     """A recording that serves live viewers on loopback and, when the site names a file, writes it too."""
+    check_port(site.view.grpc_port)
     rec = rr.RecordingStream("r2x", recording_id=f"r2x-{site.name}")
     sinks: list[rr.GrpcServerSink | rr.FileSink] = [
         rr.GrpcServerSink(bind_ip="127.0.0.1", port=site.view.grpc_port, server_memory_limit=site.view.memory_limit)

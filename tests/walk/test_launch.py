@@ -1,5 +1,6 @@
 """A supervised mesh of real processes: up, status, restart after a crash, no orphans, clear faults."""
 
+import json
 import os
 import signal
 import socket
@@ -94,6 +95,15 @@ def test_killed_supervisor_leaves_no_orphans(mesh: tuple[Mesh, Site]) -> None:
     _wait(lambda: not any(_alive(pid) for pid in pids))
 
 
+def test_a_supervisor_killed_while_its_processes_load_leaves_no_orphans(mesh: tuple[Mesh, Site]) -> None:
+    launch, site = mesh
+    launch.start(site)
+    _wait(lambda: all(p.pid for p in launch.processes()))
+    pids = [p.pid for p in launch.processes()]
+    os.kill(int((launch.run_dir / "supervisord.pid").read_text()), signal.SIGKILL)
+    _wait(lambda: not any(_alive(pid) for pid in pids))
+
+
 def test_starting_twice_and_asking_a_mesh_that_is_not_there_are_refused(mesh: tuple[Mesh, Site]) -> None:
     launch, site = mesh
     with pytest.raises(LaunchError, match="justw up"):
@@ -133,3 +143,55 @@ def test_a_typo_in_the_site_file_is_one_sentence_with_its_place(tmp_path: Path, 
     assert done.returncode == 2
     assert "room.0.nmae" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_second_mesh_that_fails_does_not_hide_the_first(tmp_path: Path, free_port: int) -> None:
+    first, second = tmp_path / "first.toml", tmp_path / "second.toml"
+    first.write_text(MINI.format(port=free_port))
+    second.write_text(MINI.format(port=free_port).replace('name = "mini"', 'name = "other"'))
+    try:
+        assert _console(tmp_path, "up", str(first)).returncode == 0
+        again = _console(tmp_path, "up", str(first))
+        assert "already runs" in again.stderr
+        assert _console(tmp_path, "up", str(second)).returncode == 1
+        assert "planner" in _console(tmp_path, "status").stdout
+        for words in (("task", ""), ("task", "x" * 3000), ("why", "x" * 300), ("cancel", "A B")):
+            done = _console(tmp_path, *words, "--json")
+            assert done.returncode == 1
+            assert json.loads(done.stdout)["ok"] is False
+            assert "Traceback" not in done.stderr
+    finally:
+        done = _console(tmp_path, "down")
+    assert "stopped 2 processes" in done.stdout
+    assert not Mesh(tmp_path / ".run" / "mini").is_up()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_start_leaves_nothing(tmp_path: Path, free_port: int, number: signal.Signals) -> None:
+    file = tmp_path / "mini.toml"
+    # nobody is there for the second process to announce: the command waits
+    file.write_text(MINI.format(port=free_port).replace('module = "planners"', 'module = "wire.router"'))
+    root = str(Path(__file__).resolve().parents[2])
+    command = [sys.executable, "-m", "console", "up", str(file)]
+    with subprocess.Popen(command, cwd=tmp_path, env={**os.environ, "PYTHONPATH": root}) as up:
+        mesh = Mesh(tmp_path / ".run" / "mini")
+        _wait(mesh.is_up)
+        up.send_signal(number)
+        assert up.wait(30) != 0
+    assert not mesh.is_up()
+
+
+def test_seeds_and_homes_that_cannot_be_are_refused_in_one_sentence(tmp_path: Path) -> None:
+    for words in (
+        ("demo-seeds", "--seeds", "abc"),
+        ("demo-seeds", "--seeds", "5-3"),
+        ("up", "--seed", "-1"),
+        ("up", "."),
+        ("demo", "--out", "/proc/nowhere"),
+        ("view",),
+        ("record", "run.rrd"),
+    ):
+        done = _console(tmp_path, *words)
+        assert done.returncode != 0
+        assert done.stderr.count("error: ") == 1, done.stderr
+        assert "Traceback" not in done.stderr

@@ -133,7 +133,7 @@ def record(
     if not raw.exists():
         fail(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
     # A stream that is cut has no footer; this writes it.
-    whole = [RERUN, "rrd", "optimize", str(raw), "-o", str(file)]
+    whole = [str(RERUN), "rrd", "optimize", str(raw), "-o", str(file)]
     if subprocess.run(whole, check=False, capture_output=True).returncode != 0:
         fail(f"{file} cannot be written; what was recorded lies in {raw}")
     raw.unlink()

@@ -77,9 +77,11 @@ def test_crashed_process_comes_back_and_stop_leaves_nothing(mesh: tuple[Mesh, Si
     launch, site = mesh
     launch.start(site)
     _wait(lambda: _running(launch))
+    _wait(lambda: "planner is on the mesh" in (launch.log_dir / "planner.log").read_text())
     before = {p.id: p.pid for p in launch.processes()}
     os.kill(before["planner"], signal.SIGKILL)
     _wait(lambda: _running(launch) and {p.id: p.pid for p in launch.processes()}["planner"] != before["planner"])
+    _wait(lambda: (launch.log_dir / "planner.log").read_text().count("planner is on the mesh") == 2)
     pids = [p.pid for p in launch.processes()]
     ended = launch.stop()
     assert {p.id: p.exit_code for p in ended} == {"router": 0, "planner": 0}

@@ -9,6 +9,7 @@ import numpy as np
 from sim.locomotion import Locomotion
 from sim.physics import Physics
 from sim.render import Camera, Picture, Renderer
+from sim.render.picture import Content
 from sim.rover import MAST_FORWARD_M, MAST_TOP_M
 from sim.scene import Vec3
 from wire import site as site_file
@@ -30,8 +31,20 @@ class _Slot:
     phase: int
 
 
+@dataclass(frozen=True)
+class _Shot:
+    """A camera's newest picture as it goes over the wire, and what it was drawn from."""
+
+    content: Content = None
+    jpeg: bytes = b""
+    depth_mm: bytes | None = None
+
+
 class Cameras:
-    """Pictures are spread evenly over the ticks, so that no tick has to draw them all."""
+    """Pictures are spread evenly over the ticks, so that no tick has to draw them all.
+
+    Where nothing in it changed, a camera's picture is its last one.
+    """
 
     def __init__(self, site: site_file.Site, physics: Physics, robots: dict[str, Locomotion]) -> None:
         self._physics = physics
@@ -43,6 +56,7 @@ class Cameras:
             every = max(1, round(1.0 / (rate_hz * site.clock.step_s)))
             self._slots.append(_Slot(camera, pose, every, (index * every // len(rows)) % every))
         self._seq = {slot.id: 0 for slot in self._slots}
+        self._newest = {slot.id: _Shot() for slot in self._slots}
 
     def due(self, tick: int) -> bool:
         """Whether any camera takes a picture at this tick."""
@@ -56,7 +70,7 @@ class Cameras:
     def _fixed(self, renderer: Renderer, row: site_file.Camera, now_s: float) -> CameraFrame:
         yaw_rad, tilt_rad = radians(row.yaw_deg), radians(row.tilt_down_deg)
         camera = Camera(row.position_enu_m, yaw_rad, tilt_rad, row.width_px, row.height_px, row.focal_px)
-        return self._frame(row.id, camera, renderer.render(camera), now_s, row.position_enu_m, yaw_rad)
+        return self._frame(row.id, camera, self._shot(row.id, camera, renderer), now_s, row.position_enu_m, yaw_rad)
 
     def _mast(self, renderer: Renderer, robot: str, now_s: float) -> CameraFrame:
         """Drawn from where the camera is, reported from where the robot's localisation believes it to be."""
@@ -72,11 +86,18 @@ class Cameras:
         )
         x, y, yaw_rad = self._robots[robot].estimate()
         eye_m = (x + MAST_FORWARD_M * cos(yaw_rad), y + MAST_FORWARD_M * sin(yaw_rad), MAST_TOP_M)
-        picture = renderer.render(camera, with_depth=True)
-        return self._frame(robot, camera, picture, now_s, eye_m, yaw_rad)
+        shot = self._shot(robot, camera, renderer, with_depth=True)
+        return self._frame(robot, camera, shot, now_s, eye_m, yaw_rad)
+
+    def _shot(self, id: str, camera: Camera, renderer: Renderer, with_depth: bool = False) -> _Shot:
+        drawn = renderer.render_changed(camera, self._newest[id].content, with_depth)
+        if drawn is not None:
+            content, picture = drawn
+            self._newest[id] = _Shot(content, _jpeg(picture), _depth_mm(picture))
+        return self._newest[id]
 
     def _frame(
-        self, id: str, camera: Camera, picture: Picture, now_s: float, position_m: Vec3, yaw_rad: float
+        self, id: str, camera: Camera, shot: _Shot, now_s: float, position_m: Vec3, yaw_rad: float
     ) -> CameraFrame:
         self._seq[id] += 1
         return CameraFrame(
@@ -89,8 +110,8 @@ class Cameras:
             position_enu_m=position_m,
             yaw_rad=yaw_rad,
             tilt_down_rad=camera.tilt_down_rad,
-            jpeg=_jpeg(picture),
-            depth_mm=_depth_mm(picture),
+            jpeg=shot.jpeg,
+            depth_mm=shot.depth_mm,
         )
 
 

@@ -2,13 +2,16 @@
 
 import logging
 from collections.abc import Sequence
+from functools import partial
 from typing import Protocol
 
 from devices.vision.changes import describe
 from devices.vision.detector import Detector
 from devices.vision.lens import Image, Lens
-from devices.vision.look import look_at_frame
+from devices.vision.look import Seen, look_at_frame
+from devices.vision.pending import Pending
 from devices.vision.picture import PictureError, encode_jpeg
+from devices.vision.steady import SteadyDetector
 from devices.vision.tracking import Tracked, Tracker
 from devices.vision.view import floor_view
 from wire.bus import CannotRun, Event, Node, Received, Request
@@ -41,7 +44,8 @@ class CctvCore:
         self, site: Site, process: str, camera: Camera, detector: Detector, boot_id: str, pictures: Pictures | None
     ) -> None:
         self._site, self._process, self._camera = site, process, camera
-        self._detector, self._boot_id, self._pictures = detector, boot_id, pictures
+        self._detector, self._boot_id, self._pictures = SteadyDetector(detector), boot_id, pictures
+        self._looks: Pending[Seen | None] = Pending(f"look-{camera.id}")
         self._lens = Lens.of_camera(camera)
         self._view = floor_view(self._lens, site.wall, site.door)
         self._tracker = Tracker()
@@ -68,9 +72,14 @@ class CctvCore:
         if self._pictures is not None:
             newest = self._take(self._pictures, now_s)
         if newest is not None and self._due(newest.stamp_s):
-            self._look(newest)
+            self._looked_s = newest.stamp_s
+            self._looks.begin(now_s, partial(self._look, newest))
+        for seen in self._looks.due(now_s):
+            if seen is not None:
+                self._report(seen)
 
     def stop(self) -> None:
+        self._looks.close()
         if self._pictures is not None:
             self._pictures.stop()
 
@@ -106,27 +115,28 @@ class CctvCore:
         self._node.publish("frame", frame, self._camera.id)
         return frame
 
-    def _look(self, frame: CameraFrame) -> None:
+    def _look(self, frame: CameraFrame) -> Seen | None:
         try:
-            seen = look_at_frame(frame, self._detector, self._site.wall, self._site.door)
+            return look_at_frame(frame, self._detector, self._site.wall, self._site.door)
         except PictureError as error:
             log.warning("%s", error)
-            return
-        self._looked_s = frame.stamp_s
+            return None
+
+    def _report(self, seen: Seen) -> None:
         tracked = self._tracker.update(seen)
         self._seq += 1
         batch = ObservationBatch(
             source=self._camera.id,
             boot_id=self._boot_id,
             seq=self._seq,
-            stamp_s=frame.stamp_s,
+            stamp_s=seen.stamp_s,
             kind="cctv",
             objects=tracked.objects,
             gone=tracked.gone,
             view=self._view,
         )
         self._node.publish("observation", batch, self._camera.id)
-        self._log_changes(tracked, frame.stamp_s)
+        self._log_changes(tracked, seen.stamp_s)
 
     def _log_changes(self, tracked: Tracked, stamp_s: float) -> None:
         known = [(t.type, t.position_enu_m) for t in self._tracker.tracks if t.confirmed]

@@ -1,16 +1,19 @@
 """A quadruped's process without its shell: the device that takes goals, the body that does them."""
 
 from collections.abc import Sequence
+from functools import partial
 
 from devices.device import Device
 from devices.goals_journal import GoalsJournal
 from devices.quadruped.body import Body
-from devices.quadruped.look import Eyes
+from devices.quadruped.look import Eyes, Look
 from devices.quadruped.map import FloorMap
 from devices.quadruped.robot import Robot
 from devices.quadruped.work import QuadrupedWorker
+from devices.vision.pending import Pending
 from wire.bus import CannotRun, Event, Node, Received
 from wire.messages.driver import CameraFrame
+from wire.messages.observation import ObservationBatch
 from wire.model import Message
 from wire.site import Site
 
@@ -31,6 +34,7 @@ class QuadrupedCore:
         worker = QuadrupedWorker(Robot(self._body, site), boot_id)
         self._device = Device(id, boot_id, worker, journal, row.lost_hub_s)
         self._journal, self._eyes = journal, eyes
+        self._looks: Pending[tuple[Look, ObservationBatch] | None] = Pending(f"look-{id}")
         self._control_due_s = 0.0
 
     def start(self, node: Node) -> None:
@@ -47,8 +51,12 @@ class QuadrupedCore:
         self._body.now_s = now_s
         for event in events:
             if isinstance(event, Received):
-                self._hear(event.message)
+                self._hear(event.message, now_s)
             self._device.hear(event, now_s)
+        for seen in self._looks.due(now_s):
+            if seen is not None:
+                self._body.looks.append(seen[0])
+                self._node.publish("observation", seen[1], self._id)
         if now_s < self._control_due_s - EARLY_S:
             return
         self._control_due_s = now_s + CONTROL_S
@@ -56,16 +64,14 @@ class QuadrupedCore:
         if self._body.odometry is not None:
             self._body.publish(self._node)
 
-    def _hear(self, message: Message) -> None:
+    def _hear(self, message: Message, now_s: float) -> None:
         if not isinstance(message, CameraFrame):
             self._body.hear(message)
         elif self._eyes is not None:
-            seen = self._eyes.look(message, self._body.holding)
-            if seen is not None:
-                self._body.looks.append(seen[0])
-                self._node.publish("observation", seen[1], self._id)
+            self._looks.begin(now_s, partial(self._eyes.look, message, self._body.holding))
 
     def stop(self) -> None:
+        self._looks.close()
         self._body.stand()
         if self._body.odometry is not None:
             self._body.publish(self._node)

@@ -13,6 +13,7 @@ from devices.vision.lens import Depth, Lens
 from devices.vision.look import Seen, look_at_frame
 from devices.vision.picture import PictureError
 from devices.vision.projection import Sighting
+from devices.vision.steady import SteadyDetector
 from devices.vision.tracking import Tracker
 from devices.vision.view import floor_view
 from wire.messages.driver import CameraFrame
@@ -35,7 +36,7 @@ class PictureEyes:
     """Own perception of one robot."""
 
     def __init__(self, site: Site, robot: str, boot_id: str, detector: Detector) -> None:
-        self._site, self._robot, self._boot_id, self._detector = site, robot, boot_id, detector
+        self._site, self._robot, self._boot_id, self._detector = site, robot, boot_id, SteadyDetector(detector)
         self._tracker = Tracker()
         self._seq = 0
 

@@ -1,6 +1,6 @@
 """Rooms, walls and doors as rows. Each side of a wall has the colour of the room it faces."""
 
-from math import hypot
+from math import cos, hypot, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,15 @@ class RoomFinder:
         """Index of the lamp and the rooms it can be seen from, of something at a point."""
         room = self.find((point_m[0], point_m[1]))
         return (-1, EVERYWHERE) if room is None else (room, np.uint64(1 << room))
+
+    def around(self, point_m: Vec3, radius_m: float) -> np.uint64:
+        """The rooms from which something round, about a point, may be seen; all of them when it stands in a doorway."""
+        _, rooms = self.place(point_m)
+        for k in range(8):
+            x, y = (point_m[0] + radius_m * cos(k * pi / 4.0), point_m[1] + radius_m * sin(k * pi / 4.0))
+            room = self.find((x, y))
+            rooms |= np.uint64(0 if room is None else 1 << room)
+        return rooms
 
     def bits(self, rooms: tuple[str, ...]) -> np.uint64:
         return np.uint64(sum(1 << self.index[room] for room in rooms))

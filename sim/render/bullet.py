@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from sim import textures
 from sim.render.instances import Instances, PartsOf
 from sim.render.meshes import DETAILS, SHADOW, vertices
-from sim.render.picture import NOTHING_ID, Camera, Picture
+from sim.render.picture import NOTHING_ID, Camera, Content, Picture
 from sim.render.rows import Rows
 from sim.render.view import depth_from_window, projection_matrix, view_matrix
 from sim.scene import Body, Scene, Vec3
@@ -61,6 +61,10 @@ class BulletRenderer:
         ids = self._owners[np.asarray(mask, dtype=np.int32).reshape(shape)] if with_ids else None
         depth_m = depth_from_window(np.asarray(window, dtype=np.float32).reshape(shape)) if with_depth else None
         return Picture(rgb, ids, depth_m)
+
+    def render_changed(self, camera: Camera, before: Content, with_depth: bool = False) -> tuple[Content, Picture]:
+        # The engine does not say what a picture is drawn from: every one is drawn.
+        return None, self.render(camera, with_depth=with_depth)
 
     def close(self) -> None:
         pybullet.disconnect(self._client)

@@ -12,7 +12,7 @@ from sim.render import shaders
 from sim.render.instances import Instances, PartsOf
 from sim.render.lamps import lamp_table
 from sim.render.meshes import vertices
-from sim.render.picture import NOTHING_ID, Camera, Picture
+from sim.render.picture import NOTHING_ID, Camera, Content, Picture
 from sim.render.portals import Portals
 from sim.render.rows import ROW
 from sim.render.view import SOFT_SHADOW, WAYS, Batch, depth_from_window, projection_matrix, view_matrix, visible_batches
@@ -58,11 +58,21 @@ class GlRenderer:
         self._instances.set_robot(name, position_m, yaw_rad, holding)
 
     def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
+        return self._render(camera, visible_batches(self._instances, self._portals, camera), with_ids, with_depth)
+
+    def render_changed(
+        self, camera: Camera, before: Content, with_depth: bool = False
+    ) -> tuple[Content, Picture] | None:
+        batches = visible_batches(self._instances, self._portals, camera)
+        content = (camera, with_depth, [(b.shape, b.detail, b.way, b.rows.tobytes()) for b in batches])
+        return None if content == before else (content, self._render(camera, batches, False, with_depth))
+
+    def _render(self, camera: Camera, batches: list[Batch], with_ids: bool, with_depth: bool) -> Picture:
         # Each renderer has a context of its own, and OpenGL talks to one of them at a time.
         with self._context:
-            return self._render(camera, with_ids, with_depth)
+            return self._draw_all(camera, batches, with_ids, with_depth)
 
-    def _render(self, camera: Camera, with_ids: bool, with_depth: bool) -> Picture:
+    def _draw_all(self, camera: Camera, batches: list[Batch], with_ids: bool, with_depth: bool) -> Picture:
         size = (camera.width_px, camera.height_px)
         if size not in self._targets:
             self._targets[size] = _Target(self._context, size)
@@ -74,7 +84,6 @@ class GlRenderer:
         clip_from_site = (projection_matrix(camera) @ view_matrix(camera)).T.astype(np.float32).tobytes()
         for program in self._programs.values():
             _uniform(program, "clip_from_site").write(clip_from_site)
-        batches = visible_batches(self._instances, self._portals, camera)
         for batch in batches:
             if batch.way != SOFT_SHADOW:
                 self._draw(batch)

@@ -11,7 +11,7 @@ from sim.render.building import RoomFinder, building_rows
 from sim.render.meshes import SHADOW, SHAPE_CODE
 from sim.render.picture import ROBOT_ID
 from sim.render.robot import robot_parts
-from sim.render.rows import EVERYWHERE, ROW, Rows
+from sim.render.rows import ROW, Rows
 from sim.scene import Body, Part, Scene, Vec3
 from sim.textures import BOARD, WOOD
 
@@ -19,6 +19,8 @@ PartsOf = Callable[[Body], Sequence[Part]]
 
 ON_FLOOR_M = 0.05
 ROBOT_SIZE_M = (0.65, 0.35, 0.45)
+ROBOT_REACH_M = 0.6
+"""From a robot's middle to the farthest of what it carries."""
 
 
 class Instances:
@@ -51,7 +53,7 @@ class Instances:
         rows = placed(robot_rows(number, holding), position_m, yaw_rad)
         rows["id"] = ROBOT_ID + number
         rows["room"], _ = self.finder.place(position_m)
-        rows["rooms"] = EVERYWHERE
+        rows["rooms"] = self.finder.around(position_m, ROBOT_REACH_M)
         self._set(name, rows)
 
     def group(self, owner: int | str) -> Rows:

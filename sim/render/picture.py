@@ -52,6 +52,10 @@ class Picture:
     """Distance along the optical axis; 0 where there is nothing."""
 
 
+Content = object
+"""What a picture was drawn from: where it is equal, so is the picture. None equals nothing that was drawn."""
+
+
 class Renderer(Protocol):
     """Takes pictures of one scene. Belongs to the thread that made it."""
 
@@ -65,6 +69,11 @@ class Renderer(Protocol):
 
     def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
         """Take a picture."""
+
+    def render_changed(
+        self, camera: Camera, before: Content, with_depth: bool = False
+    ) -> tuple[Content, Picture] | None:
+        """The same with its content, or None when it would be the picture of the content given."""
 
     def close(self) -> None:
         """Give back what the renderer holds."""

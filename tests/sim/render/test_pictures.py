@@ -155,3 +155,31 @@ def test_renderers_of_two_homes_do_not_mix(home: Scene, parts_of: PartsOf):
     assert np.array_equal(first, again)
     assert np.array_equal(last, first[1])
     assert not np.array_equal(first[0], first[1])
+
+
+def test_a_picture_is_drawn_again_only_when_something_in_it_changed(home: Scene, parts_of: PartsOf):
+    renderer, camera = make_renderer(home, "gl", parts_of), VIEWS[2]
+    renderer.set_robot("dog-1", (6.5, 2.4, 0.0), 0.0)
+    content, _ = renderer.render_changed(camera, None)
+    renderer.set_robot("dog-1", (6.8, 2.4, 0.0), 0.5)  # in the other room
+    assert renderer.render_changed(camera, content) is None
+    assert renderer.render_changed(replace(camera, yaw_rad=0.8), content) is not None
+    renderer.set_robot("dog-1", (2.6, 2.4, 0.0), 2.5)
+    drawn = renderer.render_changed(camera, content)
+    assert drawn is not None
+    assert np.array_equal(drawn[1].rgb, renderer.render(camera).rgb)
+    assert renderer.render_changed(camera, drawn[0]) is None
+    home.bodies[4].look += 1
+    renderer.update(home.bodies[4])
+    assert renderer.render_changed(camera, drawn[0]) is not None
+    renderer.close()
+
+
+def test_pybullets_pictures_are_always_drawn(home: Scene, parts_of: PartsOf):
+    renderer = make_renderer(home, "bullet", parts_of)
+    content, picture = renderer.render_changed(VIEWS[8], None, with_depth=True)
+    again = renderer.render_changed(VIEWS[8], content, with_depth=True)
+    assert again is not None
+    assert np.array_equal(picture.rgb, again[1].rgb)
+    assert picture.depth_m is not None
+    renderer.close()

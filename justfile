@@ -127,7 +127,7 @@ demo-seeds *args: install
 fmt: install
     {{ python }} -m ruff check --fix .
     {{ python }} -m ruff format .
-    {{ python }} -m wire.protocol_page
+    {{ python }} -m wire.protocol_page docs/protocol.md
 
 # renew requirements.lock from pyproject.toml
 [group('develop')]

@@ -100,7 +100,7 @@ class Conductor:
         task = self.task
         if task is None or task.status != "planning" or self._halting is not None or not self._asked:
             return
-        if reply is not None and (reply.task != task.id or reply.epoch != self._epoch):
+        if reply is not None and (reply.task, reply.epoch) != (task.id, self._epoch):
             return
         self._asked = False
         if reply is None:
@@ -116,8 +116,9 @@ class Conductor:
     def _adopt(self, task: Task, plan: Plan, now_s: float) -> None:
         task.planner = plan.planner
         task.tokens = (task.tokens[0] + plan.prompt_tokens, task.tokens[1] + plan.completion_tokens)
-        skills = {r.id: r.skills for r in self._world.fleet.robots.values() if r.present}
-        found = faults(plan, self._world.snapshot(now_s), skills, self._world.floor)
+        for line in self._world.take_for(plan.taken_for):
+            task.say(now_s, line)
+        found = faults(plan, self._world.snapshot(now_s), self._world.fleet.skills(), self._world.floor)
         if found:
             task.failures += found
             self._failed(task, f"the plan cannot be carried out: {found[0]}", now_s)
@@ -132,13 +133,12 @@ class Conductor:
 
     def _drive(self, task: Task, run: PlanRun, now_s: float) -> None:
         """Dispatch what is ready; see whether the plan has come to its end."""
-        running = run.running()
         if run.finished():
             self._finish(task, run, now_s)
             return
+        running = run.running()
         busy = frozenset(s.robot for s in running if s.robot is not None)
-        robots = [r for r in self._world.fleet.robots.values() if r.present]
-        for step, robot in self._dispatch.match(run, run.ready(now_s), robots, busy, now_s):
+        for step, robot in self._dispatch.match(run, run.ready(now_s), self._world.fleet.here(), busy, now_s):
             task.counter += 1
             goal_id = f"{task.id}-e{self._epoch}-{task.counter}"
             run.start(step, robot.id, goal_id, now_s)

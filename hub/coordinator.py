@@ -174,7 +174,7 @@ class Coordinator:
             self._conductor.changed(changed, now_s)
 
     def _direct_traffic(self, now_s: float) -> None:
-        robots = sorted((r for r in self.world.fleet.robots.values() if r.present), key=lambda r: r.id)
+        robots = sorted(self.world.fleet.here(), key=lambda r: r.id)
         movers = [Mover(r.id, r.xy, r.path_m, r.radius_m) for r in robots]
         rulings = self._traffic.rule(movers, now_s)
         self._orders += 1

@@ -116,7 +116,7 @@ class Desk:
         return ControlReply(ok=True, text=f"{task.id} is being cancelled")
 
     def _stop(self, now_s: float) -> ControlReply:
-        robots = sorted(r.id for r in self._world.fleet.robots.values() if r.present)
+        robots = sorted(r.id for r in self._world.fleet.here())
         for robot in robots:
             self._voice.cancel(robot, None)
         for task in self._tasks.values():

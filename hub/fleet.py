@@ -103,14 +103,21 @@ class Fleet:
 
     def met(self, waited_s: float) -> bool:
         """Whether every robot has announced itself; one that never does is not waited for."""
-        there = [r for r in self.robots.values() if r.present]
+        there = self.here()
         return waited_s > _MEET_S or (bool(there) and all(r.card is not None for r in there))
 
     def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""
         x, y, z = point_enu_m
-        bodies = [r.position_m for r in self.robots.values() if r.present]
+        bodies = [r.position_m for r in self.here()]
         return z < _BODY_HEIGHT_M and any(hypot(b[0] - x, b[1] - y) < _BODY_M for b in bodies)
+
+    def here(self) -> list[Robot]:
+        """Robots that have not gone away."""
+        return [r for r in self.robots.values() if r.present]
+
+    def skills(self) -> dict[str, tuple[str, ...]]:
+        return {r.id: r.skills for r in self.here()}
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

@@ -4,7 +4,7 @@ The loop over a batch is the hub's hottest: a track already bound to a thing is 
 """
 
 from collections.abc import Callable
-from math import inf
+from math import hypot, inf
 
 from hub import association
 from hub.facts import claim
@@ -23,7 +23,9 @@ _HEARSAY = 16.0
 _TRACK_GATE = 16.0
 _FLOOR_M2 = {"robot": 0.02**2, "cctv": 0.05**2, "device": 0.05**2}
 """Errors of one source repeat from picture to picture: no number of them makes the place surer than this."""
-_VOTING_HITS = 8
+_VOTES = {"robot": 4, "cctv": 8, "device": 8}
+"""From one place a source votes this often on a type: more of the same picture is no more evidence."""
+_ANOTHER_PLACE_M = 0.3
 _MISNAMED = 0.6
 """Part of its half diagonal within which furniture under another name is the same."""
 _KNOWN_HITS, _REPEATED = 4, 3.0
@@ -42,9 +44,12 @@ class Source:
         "id",
         "kind",
         "origin",
+        "place",
+        "place_m",
         "robot",
         "step",
         "tracks",
+        "votes",
         "weight",
     )
 
@@ -54,8 +59,16 @@ class Source:
         self.boot_id = ""
         self.origin: Vec3 | None = None
         """Where a robot looked from in the picture at hand."""
-        self.floor_m2, self.step, self.cap = _FLOOR_M2[kind], _STEP[kind], _CAP[kind]
+        self.place, self.place_m = 0, (0.0, 0.0)
+        """Counts the places from which it has looked; where it came to the present one."""
+        self.floor_m2, self.step, self.cap, self.votes = _FLOOR_M2[kind], _STEP[kind], _CAP[kind], _VOTES[kind]
         self.weight = 3.0 if self.robot else 1.0
+
+    def look_from(self, origin: Vec3 | None) -> None:
+        """Note where a robot looks from in the picture at hand; None when it is not known."""
+        self.origin = origin
+        if origin is not None and hypot(origin[0] - self.place_m[0], origin[1] - self.place_m[1]) > _ANOTHER_PLACE_M:
+            self.place, self.place_m = self.place + 1, (origin[0], origin[1])
 
 
 class Fusion:
@@ -81,7 +94,7 @@ class Fusion:
             source.tracks.clear()  # a restarted source begins its names anew
         self._mark = mark = self._mark + 1
         stamp_s = batch.stamp_s
-        source.origin = batch.view.origin_enu_m if batch.view is not None and source.robot else None
+        source.look_from(batch.view.origin_enu_m if batch.view is not None and source.robot else None)
         late: list[ObjectObservation] = []
         tracks, refine = source.tracks, self._refine
         for seen in batch.objects:
@@ -212,8 +225,11 @@ class Fusion:
         thing.hits += 1
         if sight.support < source.cap:
             self._support(thing, sight, source, confidence)
-        if not source.robot and sight.hits > _VOTING_HITS:
-            pass  # a fixed camera repeats itself: more of the same picture is no more evidence
+        if sight.place != source.place:
+            sight.place, sight.votes = source.place, 0
+        sight.votes += 1
+        if sight.votes > source.votes:
+            pass
         elif type_same:
             thing.votes[seen.type] = thing.votes.get(seen.type, 0.0) + confidence * source.weight
         else:

@@ -39,7 +39,20 @@ class Fact:
 class Sight:
     """What one source has seen of one thing."""
 
-    __slots__ = ("absent_looks", "absent_s", "confidence", "hits", "robot", "stamp_s", "support", "x", "y", "z")
+    __slots__ = (
+        "absent_looks",
+        "absent_s",
+        "confidence",
+        "hits",
+        "place",
+        "robot",
+        "stamp_s",
+        "support",
+        "votes",
+        "x",
+        "y",
+        "z",
+    )
 
     def __init__(self, robot: bool) -> None:
         self.robot = robot
@@ -50,6 +63,8 @@ class Sight:
         self.absent_looks = 0
         self.confidence = 0.0
         self.hits = 0
+        self.place = self.votes = 0
+        """Where the source stood when it last voted on the type, and how often it has from there."""
         self.x = self.y = self.z = 0.0
 
 

@@ -9,6 +9,8 @@ SHOWN_BELIEF = 0.4
 """Log-odds from which on a thing is told to others."""
 _MOVED_M = 0.03
 _STAMP_S = 2.0
+_MAYBE = 0.15
+"""Part of the votes from which on another type is worth a mention."""
 
 
 def confidence(thing: Thing, now_s: float) -> float:
@@ -67,4 +69,11 @@ def state(thing: Thing, now_s: float) -> ObjectState:
         confidence=round(confidence(thing, now_s), 3),
         seen_by=tuple(sorted(source for source, sight in thing.sights.items() if sight.hits)),
         verified=thing.verified,
+        maybe=_maybe(thing),
     )
+
+
+def _maybe(thing: Thing) -> dict[str, float]:
+    total = sum(thing.votes.values())
+    shares = {type: votes / total for type, votes in sorted(thing.votes.items()) if type != thing.type}
+    return {type: round(share, 2) for type, share in shares.items() if share >= _MAYBE}

@@ -1,5 +1,7 @@
 """W = (robots, objects, areas): equation 1, its transition F (equation 5), and what changed since the last delta."""
 
+from collections.abc import Mapping
+
 from hub.absence import Absences
 from hub.areas import Areas
 from hub.association import duplicates
@@ -9,6 +11,7 @@ from hub.facts import claim, settle
 from hub.fleet import Fleet, Robot
 from hub.floor import FloorPlan
 from hub.fusion import Fusion
+from hub.kinds import shapes
 from hub.records import Fact, Thing
 from hub.showing import due, show, state
 from hub.things import Things
@@ -22,6 +25,8 @@ from wire.site import Site
 _PLACED_M = 0.09
 _RESETTLED_M = 0.15
 """Furniture that is believed this far from where it was has its neighbours' parents worked out again."""
+_TAKEN_FOR = 12.0
+"""Votes that it takes to undo that a plan took a thing for something else."""
 _SWEEP_S = 5.0
 _MERGE_S = 1.0
 _TENTATIVE_S = 20.0
@@ -103,6 +108,19 @@ class World:
         """The fact, made when nobody has spoken of it yet; the next delta weighs it again."""
         self.things.touch(thing)
         return thing.facts.setdefault(name, Fact())
+
+    def take_for(self, types: Mapping[str, str]) -> list[str]:
+        """Believe things to be of other types until looks say otherwise again; a line for each that changed."""
+        lines = []
+        for id, type in types.items():
+            thing = self.things.get(id)
+            if thing is not None and thing.type != type and type in shapes():
+                lines.append(f"the {thing.type} {id} is taken for the {type}, which was found nowhere")
+                thing.votes[type] = sum(thing.votes.values()) + _TAKEN_FOR
+                thing.retype(type)
+                thing.version += 1
+                self.things.touch(thing)
+        return lines
 
     def begin_task(self) -> None:
         """What goals ask a robot to have seen or searched counts from now."""

@@ -7,6 +7,7 @@ from planners.tasks.belief import Belief
 from planners.tasks.decompose import Decomposition
 from planners.tasks.emit import Emitter
 from planners.tasks.failures import Failures
+from planners.tasks.likeness import as_taken, taken_for
 from planners.tasks.memory import Memory
 from planners.tasks.search import Search
 from planners.tasks.settle import settle
@@ -29,10 +30,12 @@ class TaskPlanner:
     def plan(self, request: PlanRequest, goals: Sequence[Goal], tokens: tuple[int, int] = (0, 0)) -> PlanReply:
         """A plan for the goals; without nodes when all hold; a refusal when nothing more can be done for them."""
         self._travel.forget()
+        taken = taken_for(goals, request.world)
+        world = as_taken(request.world, taken)
         belief = Belief(
-            request.world,
+            world,
             self._travel,
-            Bans(goals, request.world),
+            Bans(goals, world),
             Failures(request.failures, (r.id for r in request.world.robots)),
             self._memory.of(request.task),
         )
@@ -43,7 +46,7 @@ class TaskPlanner:
             nodes = Emitter(self._site, belief).nodes(jobs) if jobs else ()
         except Impossible as reason:
             return _refused(request, str(reason))
-        unreached = [goal for goal in settled if not holds(goal, request.world)]
+        unreached = [goal for goal in settled if not holds(goal, world)]
         if not nodes and (work.hopeless or unreached):
             why = "; ".join(dict.fromkeys(work.hopeless)) or "nothing more can be done"
             return _refused(request, why, unreached[0].text if unreached else "")
@@ -53,6 +56,7 @@ class TaskPlanner:
             planner=self._name,
             goals=settled,
             nodes=nodes,
+            taken_for=taken,
             complete=work.complete,
             prompt_tokens=tokens[0],
             completion_tokens=tokens[1],

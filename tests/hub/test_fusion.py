@@ -167,3 +167,36 @@ def test_what_one_robot_sees_another_that_overlooks_it_does_not_undo() -> None:
         world.delta(20.0 + 0.5 * look)
     (plate,) = _objects(world, 51.0, "Plate")
     assert plate.confidence < 0.95
+
+
+def test_standing_and_staring_is_one_opinion() -> None:
+    world = World(flat())
+    for look in range(60):
+        world.observe(batch("dog-1", 0.5 * look, seen("ArmChair", 2.5, 2.0, 0.4, "a"), view=view(0.5, 2.0)))
+    for k in range(5):
+        for look in range(4):
+            at = view(0.5 + 0.1 * k, 1.0 + 0.5 * k)
+            world.observe(batch("dog-2", 30.0 + 2.0 * k + 0.5 * look, seen("Sofa", 2.5, 2.0, 0.4, f"s{k}"), view=at))
+    world.delta(45.0)
+    (sofa,) = [o for o in world.snapshot(45.0).objects if o.type in ("Sofa", "ArmChair")]
+    assert sofa.type == "Sofa"
+    assert sofa.maybe == {"ArmChair": 0.17}
+
+
+def test_a_thing_is_taken_for_what_a_plan_says_until_looks_say_otherwise() -> None:
+    world = World(flat())
+    for look in range(4):
+        world.observe(batch("cam-1", 0.5 * look, seen("ArmChair", 2.5, 2.0, 0.4, "a")))
+    world.delta(2.0)
+    (chair,) = _objects(world, 2.0, "ArmChair")
+    assert world.take_for({chair.id: "Sofa", "obj-none": "Sofa"}) == [
+        f"the ArmChair {chair.id} is taken for the Sofa, which was found nowhere"
+    ]
+    assert world.take_for({chair.id: "Sofa"}) == []
+    assert [o.id for o in _objects(world, 2.5, "Sofa")] == [chair.id]
+    for k in range(9):
+        for look in range(4):
+            at = view(0.5, 0.5 + 0.4 * k)
+            world.observe(batch("dog-1", 3.0 + 2.0 * k + 0.5 * look, seen("ArmChair", 2.5, 2.0, 0.4, "b"), view=at))
+    world.delta(22.0)
+    assert [o.type for o in world.snapshot(22.0).objects] == ["ArmChair"]

@@ -45,6 +45,9 @@ class Plan(Message):
     planner: Word
     goals: tuple[Goal, ...]
     nodes: tuple[PlanNode, ...] = Field(max_length=512)
+    taken_for: dict[Id, Word] = {}
+    """Objects that the plan takes for another type than the world state says, because nothing else can be what is
+    asked for."""
     complete: bool = True
     """False when the plan only gathers what is missing (a search) and planning goes on after it."""
     prompt_tokens: int = Field(default=0, ge=0)

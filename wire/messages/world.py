@@ -58,6 +58,8 @@ class ObjectState(Message):
     seen_by: tuple[Id, ...] = ()
     verified: bool = False
     """A robot has seen it from close by, or handled it."""
+    maybe: dict[Word, Probability] = {}
+    """Other types that a good part of the looks took it for."""
 
 
 class AreaState(Message):

@@ -1,9 +1,10 @@
 """demo, demo-seeds, view, record, perf: what is looked at rather than commanded."""
 
+import json
 import os
 import subprocess
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -51,8 +52,11 @@ def demo_seeds(
     limit_s: Annotated[float, typer.Option(help="give up on a seed after this many seconds")] = 400.0,
     json_: Json = False,
 ) -> None:
-    """Run the demo on many seeds; every run is reported, failures with their reason."""
-    rows = []
+    """Run the demo on many seeds; every run is reported, failures with their reason, and written to OUT/seeds.json.
+
+    Ctrl-C halts the robots, ends the run that it interrupts, and with it the series.
+    """
+    rows: list[dict[str, Any]] = []
     for seed in _range(seeds, json_):
         try:
             row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
@@ -66,8 +70,14 @@ def demo_seeds(
                 f"{seed:>4} {verdict} {row['path_m']:7.1f} m {row['sim_s']:7.1f} s  {row['instruction']}  {why}",
                 markup=False,
             )
-    good = sum(bool(r["success"]) for r in rows)
-    emit({"succeeded": good, "of": len(rows), "runs": rows}, f"{good} of {len(rows)} seeds succeeded", json_)
+        good = sum(bool(r["success"]) for r in rows)
+        document = {"succeeded": good, "of": len(rows), "runs": rows}
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "seeds.json").write_text(json.dumps(document, indent=2, sort_keys=True) + "\n")
+        if row.get("task_status") == "cancelled":
+            emit(document, f"interrupted: {good} of {len(rows)} seeds succeeded", json_)
+            raise typer.Exit(130)
+    emit(document, f"{good} of {len(rows)} seeds succeeded", json_)
 
 
 def _range(seeds: str, json_: bool) -> range:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
+from hub.ability import Ability, mass_kg
 from hub.floor import FloorPlan
 from hub.replay import replay
 from wire.catalogue import PROP_FLAG, catalogue
@@ -24,14 +25,14 @@ _FLAG: dict[Action, str] = {
 }
 
 
-def faults(plan: Plan, world: WorldState, skills: Mapping[str, tuple[str, ...]], floor: FloorPlan) -> list[str]:
-    """Why the plan cannot be carried out; empty when it can. `skills`: of every robot that is there."""
+def faults(plan: Plan, world: WorldState, abilities: Mapping[str, Ability], floor: FloorPlan) -> list[str]:
+    """Why the plan cannot be carried out; empty when it can. `abilities`: of every robot that is there."""
     found = _graph(plan)
     if found:
         return found
     objects = {o.id: o for o in world.objects}
     for node in plan.nodes:
-        found += _fields(node, objects, floor) + _hands(node, skills)
+        found += _fields(node, objects, floor) + _hands(node, objects, abilities)
     if found:
         return found
     order = list(TopologicalSorter({n.id: n.after for n in plan.nodes}).static_order())
@@ -83,16 +84,23 @@ def _fields(node: PlanNode, objects: dict[str, ObjectState], floor: FloorPlan) -
     return found
 
 
-def _hands(node: PlanNode, skills: Mapping[str, tuple[str, ...]]) -> list[str]:
-    if not skills:
+def _hands(node: PlanNode, objects: dict[str, ObjectState], abilities: Mapping[str, Ability]) -> list[str]:
+    if not abilities:
         return ["no robot is there"]
     needed = {node.action, *node.req_skills}
-    able = [robot for robot, has in skills.items() if needed <= set(has)]
+    able = [robot for robot, has in abilities.items() if needed <= set(has.skills)]
     if not able:
-        missing = sorted(needed - {skill for has in skills.values() for skill in has}) or sorted(needed)
+        missing = sorted(needed - {skill for has in abilities.values() for skill in has.skills}) or sorted(needed)
         return [f"node {node.id} ({node.action}): no robot can {', '.join(missing)}"]
+    load = objects.get(node.object or "") if node.action == "pickup" else None
+    if load is not None:
+        able = [robot for robot in able if abilities[robot].lifts(load.type)]
+        if not able:
+            most_kg = max(has.payload_kg for has in abilities.values())
+            weighs = f"a {load.type} weighs about {mass_kg(load.type):g} kg"
+            return [f"node {node.id} (pickup): {weighs}, and no robot lifts more than {most_kg:g} kg"]
     preferred = node.preferred_robot
-    if preferred is not None and preferred in skills and preferred not in able:
+    if preferred is not None and preferred in abilities and preferred not in able:
         return [f"node {node.id} prefers {preferred}, which cannot {node.action}; {', '.join(sorted(able))} can"]
     return []
 

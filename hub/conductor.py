@@ -118,7 +118,7 @@ class Conductor:
         task.tokens = (task.tokens[0] + plan.prompt_tokens, task.tokens[1] + plan.completion_tokens)
         for line in self._world.take_for(plan.taken_for):
             task.say(now_s, line)
-        found = faults(plan, self._world.snapshot(now_s), self._world.fleet.skills(), self._world.floor)
+        found = faults(plan, self._world.snapshot(now_s), self._world.fleet.abilities(), self._world.floor)
         if found:
             task.failures += found
             self._failed(task, f"the plan cannot be carried out: {found[0]}", now_s)

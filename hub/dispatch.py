@@ -71,7 +71,10 @@ class Dispatch:
                 return False
         if node.action == "put" or node.item is not None:
             return robot.inventory == node.item
-        if node.action in ("pickup", "slice", "clean"):
+        if node.action == "pickup":
+            thing = self._things.get(node.object)
+            return robot.inventory is None and (thing is None or robot.ability.lifts(thing.type))
+        if node.action in ("slice", "clean"):
             return robot.inventory is None
         return True
 

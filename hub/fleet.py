@@ -1,7 +1,8 @@
 """S^R of equation 1: every robot as it reports itself, with what the hub knows it carries."""
 
-from math import hypot
+from math import hypot, inf
 
+from hub.ability import Ability
 from hub.floor import FloorPlan
 from wire.frames import yaw_deg
 from wire.messages.command import DeviceCard, RobotReport
@@ -57,6 +58,11 @@ class Robot:
     @property
     def skills(self) -> tuple[str, ...]:
         return tuple(skill.name for skill in self.card.skills) if self.card is not None else ()
+
+    @property
+    def ability(self) -> Ability:
+        payload_kg = self.card.payload_kg if self.card is not None else 0.0
+        return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf)
 
     @property
     def radius_m(self) -> float:
@@ -116,8 +122,8 @@ class Fleet:
         """Robots that have not gone away."""
         return [r for r in self.robots.values() if r.present]
 
-    def skills(self) -> dict[str, tuple[str, ...]]:
-        return {r.id: r.skills for r in self.here()}
+    def abilities(self) -> dict[str, Ability]:
+        return {r.id: r.ability for r in self.here()}
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

@@ -32,6 +32,8 @@ class ObjectType(Message):
     """Receptacle types that commonly hold it."""
     holds: dict[str, float]
     """P(type present | a receptacle of this type)."""
+    mass_kg: float | None = None
+    """Of a typical thing that is carried; None where nobody carries it or nobody knows."""
     modelled: bool
     """The simulator has a body for it and the embedded detector knows it."""
 

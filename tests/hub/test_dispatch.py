@@ -12,8 +12,11 @@ from hub.distance import Distances
 from hub.floor import FloorPlan
 from hub.plan import PlanRun
 from hub.world import World
-from tests.hub.scenes import card, flat, report
+from tests.hub.scenes import batch, card, flat, report, seen
 from wire.messages.plan import Plan, PlanNode
+
+
+WEIGHT = "the-weight"
 
 
 def _least(costs: list[list[float]]) -> tuple[int, float]:
@@ -50,10 +53,14 @@ def test_distances_go_through_doors() -> None:
 
 def _match(nodes: tuple[PlanNode, ...], busy: frozenset[str] = frozenset(), now_s: float = 0.0, **inventory: str):
     world = World(flat())
-    for id, x in (("dog-1", 1.0), ("dog-2", 6.0)):
+    for look in range(4):
+        world.observe(batch("cam-1", 0.5 * look, seen("Dumbbell", 2.0, 2.0, 0.1)))
+    for id, x, payload_kg in (("dog-1", 1.0, 2.0), ("dog-2", 6.0, 8.0)):
         world.report_robot(report(id, x, 1.0, 0.0))
-        world.fleet.take_card(card(id))
+        world.fleet.take_card(card(id).model_copy(update={"payload_kg": payload_kg}))
         world.fleet.robot(id).inventory = inventory.get(id.replace("-", "_"))
+    (weight,) = world.things
+    nodes = tuple(n.model_copy(update={"object": weight.id}) if n.object == WEIGHT else n for n in nodes)
     run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=nodes))
     run.ready(0.0)
     dispatch = Dispatch(world.floor, world.things)
@@ -81,3 +88,7 @@ def test_only_who_holds_it_puts_it() -> None:
 def test_full_hands_take_nothing() -> None:
     take = PlanNode(id="a", action="pickup", object="obj-3")
     assert _match((take,), dog_1="obj-1", dog_2="obj-2") == {}
+
+
+def test_what_is_heavy_goes_to_who_can_lift_it() -> None:
+    assert _match((PlanNode(id="a", action="pickup", object=WEIGHT),)) == {"a": "dog-2"}

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hub.ability import Ability
 from hub.checks import faults
 from hub.floor import FloorPlan
 from tests.hub.scenes import ACTIONS, flat
@@ -47,10 +48,14 @@ def _world(**robot: object) -> WorldState:
 
 
 def _faults(
-    *nodes: PlanNode, world: WorldState | None = None, skills: dict[str, tuple[str, ...]] = SKILLS
+    *nodes: PlanNode,
+    world: WorldState | None = None,
+    skills: dict[str, tuple[str, ...]] = SKILLS,
+    payload_kg: float = 3.0,
 ) -> list[str]:
     plan = Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=nodes)
-    return faults(plan, world or _world(), skills, FloorPlan(flat()))
+    abilities = {robot: Ability(has, payload_kg) for robot, has in skills.items()}
+    return faults(plan, world or _world(), abilities, FloorPlan(flat()))
 
 
 OPEN = PlanNode(id="open", action="open", object="fridge")
@@ -123,3 +128,12 @@ def test_circles_are_found_and_graphs_without_are_not_blamed(seed: int, size: in
     chain[names[first]] = (*after[names[first]], names[last])
     circular = [n.model_copy(update={"after": tuple(dict.fromkeys(chain.get(n.id, n.after)))}) for n in nodes]
     assert "in a circle" in _faults(*circular)[0]
+
+
+def test_what_is_too_heavy_for_every_robot_is_refused() -> None:
+    world = _world().model_copy(update={"objects": (*_world().objects, _object("weight", "Dumbbell"))})
+    lift = PlanNode(id="lift", action="pickup", object="weight")
+    assert _faults(lift, world=world) == [
+        "node lift (pickup): a Dumbbell weighs about 5 kg, and no robot lifts more than 3 kg"
+    ]
+    assert _faults(lift, world=world, payload_kg=6.0) == []

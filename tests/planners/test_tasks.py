@@ -4,6 +4,7 @@ from random import Random
 
 import pytest
 
+from hub.ability import Ability
 from hub.checks import faults
 from hub.floor import FloorPlan
 from planners.scripted.planner import ScriptedPlanner
@@ -70,8 +71,8 @@ def furnished(seed: int, cameras: tuple[str, ...]) -> House:
 
 def hub_agrees(plan: Plan, world: WorldState) -> None:
     """The hub's static checks find nothing to object to."""
-    skills = {robot.id: robot.skills for robot in world.robots}
-    assert not faults(plan, world, skills, FloorPlan(site()))
+    abilities = {robot.id: Ability(robot.skills) for robot in world.robots}
+    assert not faults(plan, world, abilities, FloorPlan(site()))
 
 
 @pytest.mark.parametrize("seed", range(72))

@@ -15,7 +15,6 @@ from hub.world import World
 from tests.hub.scenes import batch, card, flat, report, seen
 from wire.messages.plan import Plan, PlanNode
 
-
 WEIGHT = "the-weight"
 
 

@@ -13,7 +13,7 @@ _CONFUSED = 5.0
 """A match across two types that look alike costs this much of the gate."""
 _LIVE_S = 3.0
 _MERGE_GATE = 6.0
-_MERGE_M = 0.9
+_MERGE_M, _MERGE_M2 = 0.9, 0.81
 _STANDS_M = 0.3
 """What begins lower than this stands on the floor."""
 _OVERLAP = 0.6
@@ -71,8 +71,12 @@ def duplicates(things: Things) -> list[tuple[Thing, Thing]]:
     for thing in list(things):
         if thing.id in gone:
             continue
-        for other in things.near(thing.x, thing.y, _MERGE_M):
-            if other.id <= thing.id or other.id in gone or not _one(thing, other):
+        x, y, id = thing.x, thing.y, thing.id
+        for other in things.near(x, y, _MERGE_M):
+            if other.id <= id:
+                continue
+            apart_m2 = (x - other.x) ** 2 + (y - other.y) ** 2
+            if apart_m2 > _MERGE_M2 or other.id in gone or not _one(thing, other, apart_m2):
                 continue
             keep, drop = (thing, other) if _rank(thing) >= _rank(other) else (other, thing)
             pairs.append((keep, drop))
@@ -86,19 +90,19 @@ def _rank(thing: Thing) -> tuple[bool, bool, int, str]:
     return (thing.handled_s > 0.0, thing.verified, thing.hits, thing.id)
 
 
-def _one(a: Thing, b: Thing) -> bool:
-    dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
-    if dx * dx + dy * dy > _MERGE_M * _MERGE_M:
-        return False
-    if _same_floor(a, b, dx * dx + dy * dy):
+def _one(a: Thing, b: Thing, apart_m2: float) -> bool:
+    if _same_floor(a, b, apart_m2):
         return True
+    if b.id in a.distinct:
+        return False
     penalty = type_penalty(a, b.type)
-    if penalty >= GATE or a.locked or b.locked or b.id in a.distinct or a.receptacle == b.id or b.receptacle == a.id:
+    if penalty >= GATE or a.locked or b.locked or a.receptacle == b.id or b.receptacle == a.id:
         return False
     if _seen_together(a, b):
         a.distinct.add(b.id)
         b.distinct.add(a.id)
         return False
+    dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
     extra = a.shape.gate_m2
     sxx, sxy, syy = a.xx + b.xx + extra, a.xy + b.xy, a.yy + b.yy + extra
     plane = (syy * dx * dx - 2.0 * sxy * dx * dy + sxx * dy * dy) / (sxx * syy - sxy * sxy)
@@ -107,11 +111,11 @@ def _one(a: Thing, b: Thing) -> bool:
 
 def _same_floor(a: Thing, b: Thing, apart_m2: float) -> bool:
     """Two pieces of furniture cannot stand in one place: one of them is the other, taken for another type."""
-    if a.shape.kind == "pickup" or b.shape.kind == "pickup" or a.type == b.type:
+    if a.type == b.type or a.shape.kind == "pickup" or b.shape.kind == "pickup":
         return False
-    if max(a.z - a.shape.height_m / 2.0, b.z - b.shape.height_m / 2.0) > _STANDS_M:
+    if apart_m2 >= (_OVERLAP * min(a.shape.half_diagonal_m, b.shape.half_diagonal_m)) ** 2:
         return False
-    return apart_m2 < (_OVERLAP * min(a.shape.half_diagonal_m, b.shape.half_diagonal_m)) ** 2
+    return max(a.z - a.shape.height_m / 2.0, b.z - b.shape.height_m / 2.0) <= _STANDS_M
 
 
 def _seen_together(a: Thing, b: Thing) -> bool:

@@ -28,8 +28,9 @@ _VOTES = {"robot": 4, "cctv": 8, "device": 8}
 _ANOTHER_PLACE_M = 0.3
 _MISNAMED = 0.6
 """Part of its half diagonal within which furniture under another name is the same."""
-_KNOWN_HITS, _REPEATED = 4, 3.0
-"""One more look at what has been seen this often counts with variances so many times larger, unless it has moved."""
+_KNOWN_HITS, _REPEATED, _PLACED_S = 4, 3.0, 1.0
+"""One more look at what has been seen this often counts with variances so many times larger, unless it has moved; of
+a source that stands still, one a second counts for the place."""
 _STEP = {"robot": 1.7, "cctv": 0.8, "device": 2.0}
 _CAP = {"robot": 4.2, "cctv": 2.4, "device": 3.0}
 
@@ -159,9 +160,15 @@ class Fusion:
         wxx, wyy = sxx + known.gate_m2, syy + known.gate_m2
         if wyy * dx * dx - 2.0 * sxy * dx * dy + wxx * dy * dy > gate * (wxx * wyy - sxy * sxy):
             return False
+        sight = thing.sights.get(source.id)
+        if sight is None:
+            sight = thing.sights[source.id] = Sight(source.robot)
         if thing.hits > _KNOWN_HITS and dx * dx + dy * dy < 4.0 * rxx:
+            if not source.robot and stamp_s - sight.placed_s < _PLACED_S:
+                return self._note(thing, seen, sight, source, stamp_s, mark)
             rxx, rxy, ryy, rzz = _REPEATED * rxx, _REPEATED * rxy, _REPEATED * ryy, _REPEATED * rzz
             sxx, sxy, syy = pxx + rxx, pxy + rxy, pyy + ryy
+        sight.placed_s = stamp_s
         if source.robot:
             if stamp_s - thing.first_hand_s > _FIRST_HAND_S:
                 pxx, pyy, pzz = max(pxx, 4.0 * rxx), max(pyy, 4.0 * ryy), max(pzz, 4.0 * rzz)
@@ -183,7 +190,13 @@ class Fusion:
         thing.z += k * dz
         pzz -= k * pzz
         thing.zz = pzz if pzz > floor else floor
-        self._credit(thing, seen, source, stamp_s, type_same)
+        return self._note(thing, seen, sight, source, stamp_s, mark)
+
+    def _note(
+        self, thing: Thing, seen: ObjectObservation, sight: Sight, source: Source, stamp_s: float, mark: int
+    ) -> bool:
+        """That it was seen, and what was seen of it besides its place."""
+        self._credit(thing, seen, sight, source, stamp_s)
         thing.mark = mark
         if stamp_s >= thing.stamp_s:
             thing.stamp_s = stamp_s
@@ -200,10 +213,8 @@ class Fusion:
         x, y, _ = seen.position_enu_m
         if (x - thing.x) ** 2 + (y - thing.y) ** 2 > (_MISNAMED * thing.shape.half_diagonal_m) ** 2:
             return False
-        self._credit(thing, seen, source, stamp_s, False)
-        thing.mark, thing.stamp_s, thing.last_source = mark, max(stamp_s, thing.stamp_s), source.id
-        self.things.touch(thing)
-        return True
+        sight = thing.sights.setdefault(source.id, Sight(source.robot))
+        return self._note(thing, seen, sight, source, stamp_s, mark)
 
     def _absorb(self, thing: Thing, x: float, y: float, mark: int, gate: float) -> bool:
         """A sight of something in a hand or behind a door: it is that thing, and says nothing new."""
@@ -212,11 +223,8 @@ class Fusion:
         thing.mark = mark
         return True
 
-    def _credit(self, thing: Thing, seen: ObjectObservation, source: Source, stamp_s: float, type_same: bool) -> None:
-        """Existence, type and properties: what this look says besides the place."""
-        sight = thing.sights.get(source.id)
-        if sight is None:
-            sight = thing.sights[source.id] = Sight(source.robot)
+    def _credit(self, thing: Thing, seen: ObjectObservation, sight: Sight, source: Source, stamp_s: float) -> None:
+        """Existence, type and properties."""
         confidence = seen.confidence
         sight.confidence, sight.stamp_s = confidence, stamp_s
         sight.x, sight.y, sight.z = seen.position_enu_m
@@ -227,12 +235,8 @@ class Fusion:
             self._support(thing, sight, source, confidence)
         if sight.place != source.place:
             sight.place, sight.votes = source.place, 0
-        sight.votes += 1
-        if sight.votes > source.votes:
-            pass
-        elif type_same:
-            thing.votes[seen.type] = thing.votes.get(seen.type, 0.0) + confidence * source.weight
-        else:
+        if sight.votes < source.votes:
+            sight.votes += 1
             self._vote(thing, seen.type, confidence * source.weight)
         facts, id = thing.facts, source.id
         for name, probability in seen.props.items():

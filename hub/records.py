@@ -45,6 +45,7 @@ class Sight:
         "confidence",
         "hits",
         "place",
+        "placed_s",
         "robot",
         "stamp_s",
         "support",
@@ -63,6 +64,8 @@ class Sight:
         self.absent_looks = 0
         self.confidence = 0.0
         self.hits = 0
+        self.placed_s = -1e9
+        """When one of its looks last counted for the place."""
         self.place = self.votes = 0
         """Where the source stood when it last voted on the type, and how often it has from there."""
         self.x = self.y = self.z = 0.0

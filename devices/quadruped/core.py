@@ -21,15 +21,15 @@ EARLY_S = 1e-6
 class QuadrupedCore:
     """Without eyes it walks by its lidar and reports nothing that it sees."""
 
-    def __init__(self, site: Site, id: str, boot_id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
+    def __init__(self, site: Site, id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
         row = next((robot for robot in site.robot if robot.id == id), None)
         if row is None:
             raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
         self._id = id
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._body = Body(id, FloorMap(site), sighted=eyes is not None)
-        worker = QuadrupedWorker(Robot(self._body, site), boot_id)
-        self._device = Device(id, boot_id, worker, journal, row.lost_hub_s)
+        worker = QuadrupedWorker(Robot(self._body, site))
+        self._device = Device(id, worker, journal, row.lost_hub_s)
         self._journal, self._eyes = journal, eyes
         self._control_due_s = 0.0
 
@@ -60,7 +60,7 @@ class QuadrupedCore:
         if not isinstance(message, CameraFrame):
             self._body.hear(message)
         elif self._eyes is not None:
-            seen = self._eyes.look(message, self._body.holding)
+            seen = self._eyes.look(message, self._body.holding, self._node.boot_id)
             if seen is not None:
                 self._body.looks.append(seen[0])
                 self._node.publish("observation", seen[1], self._id)

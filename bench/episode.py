@@ -1,6 +1,9 @@
 """One whole episode in one process: the same cores over the in-memory mesh, in lockstep, as fast as they are.
 
-`python -m bench.episode --seed 7 [--instruction TEXT] [--json]`
+`python -m bench.episode --seed 7 [--robots N] [--instruction TEXT] [--record FILE] [--json]`
+
+Two runs say the same bytes: their `wire_sha256` and `journal_sha256` are equal. Should they ever not be, two recordings
+tell which message differs first.
 """
 
 import argparse
@@ -10,6 +13,7 @@ import json
 import os
 import sqlite3
 import time
+from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -17,9 +21,11 @@ from typing import Any
 from console.places import generate_home
 from console.task import task_document
 from wire.bus import Core
-from wire.loopback import LoopbackMesh
+from wire.loopback import LoopbackMesh, Recorder
+from wire.messages.goal import Goal
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
 from wire.messages.truth import JudgeReply, JudgeRequest
+from wire.recording import RecordingWriter
 from wire.site import STATE_VARIABLE, Process, Site, load_site
 
 _RUNNING = ("planning", "running", "paused")
@@ -32,14 +38,10 @@ def build_core(site: Site, row: Process) -> Core:
     return core
 
 
-def make_mesh(site: Site, wire_hash: "hashlib._Hash | None" = None) -> LoopbackMesh:
-    """All cores of a site on one in-memory mesh; everything that is published goes into `wire_hash`."""
-
-    def note(now_s: float, key: str, sender: str, tick: int, payload: bytes) -> None:
-        if wire_hash is not None:
-            wire_hash.update(f"{now_s:.3f} {tick} {sender} {key} ".encode() + payload)
-
-    mesh = LoopbackMesh(site.clock.step_s, note)
+def make_mesh(site: Site, state: Path, recorder: Recorder | None = None) -> LoopbackMesh:
+    """All cores of a site on one in-memory mesh; `state` takes their journals."""
+    os.environ[STATE_VARIABLE] = str(state)
+    mesh = LoopbackMesh(site.clock.step_s, recorder)
     for row in site.process:
         if row.role != "router" and row.role in _CORE_ROLES:
             mesh.add(build_core(site, row), row.id, row.role, owner=row.role == "sim")
@@ -47,12 +49,22 @@ def make_mesh(site: Site, wire_hash: "hashlib._Hash | None" = None) -> LoopbackM
 
 
 def run_episode(
-    site: Site, state: Path, instruction: str | None, limit_s: float, settle_s: float = 2.0
+    site: Site,
+    state: Path,
+    instruction: str | None,
+    limit_s: float,
+    record: Recorder | None = None,
+    settle_s: float = 2.0,
 ) -> dict[str, Any]:
-    """Do one instruction (the scene's own by default) and judge it; `state` takes the journals."""
-    os.environ[STATE_VARIABLE] = str(state)
+    """Do one instruction (the scene's own by default) and judge it; `record` is handed everything that is published."""
     wire_hash = hashlib.sha256()
-    mesh = make_mesh(site, wire_hash)
+
+    def note(now_s: float, key: str, sender: str, tick: int, payload: bytes) -> None:
+        wire_hash.update(f"{now_s:.3f} {tick} {sender} {key} ".encode() + payload)
+        if record is not None:
+            record(now_s, key, sender, tick, payload)
+
+    mesh = make_mesh(site, state, note)
     began = time.perf_counter()
     mesh.run(settle_s)
     before = _judge(mesh)
@@ -60,11 +72,11 @@ def run_episode(
     while isinstance(task, TaskState) and task.status in _RUNNING and mesh.now_s < limit_s:
         mesh.run(1.0)
         task = mesh.call("task_query", TaskQuery(task="task-1"))
-    judged = _judge(mesh)
+    assert isinstance(task, TaskState)
+    judged = _judge(mesh, None if instruction is None else tuple(g.goal for g in task.goals))
     wall_s = time.perf_counter() - began
     sim_s = mesh.now_s
     mesh.close()
-    assert isinstance(task, TaskState)
     return {
         "success": judged.success,
         "goals": [{"goal": g.goal.text or g.goal.predicate, "true": g.holds} for g in judged.goals],
@@ -78,8 +90,9 @@ def run_episode(
     }
 
 
-def _judge(mesh: LoopbackMesh) -> JudgeReply:
-    reply = mesh.call("judge", JudgeRequest(), role="evaluator")
+def _judge(mesh: LoopbackMesh, goals: tuple[Goal, ...] | None = None) -> JudgeReply:
+    """Of the scene's own task without goals."""
+    reply = mesh.call("judge", JudgeRequest(goals=goals), role="evaluator")
     assert isinstance(reply, JudgeReply)
     return reply
 
@@ -100,13 +113,16 @@ def journal_digest(state: Path) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seed", type=int, default=7)
+    parser.add_argument("--robots", type=int, default=3)
     parser.add_argument("--instruction", default=None)
     parser.add_argument("--limit-s", type=float, default=600.0)
+    parser.add_argument("--record", type=Path, default=None, help="a recording of everything that is said")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
-    with TemporaryDirectory(prefix="r2x-episode-") as folder:
-        site = load_site(generate_home(arguments.seed, Path(folder) / "site.toml"))
-        result = run_episode(site, Path(folder), arguments.instruction, arguments.limit_s)
+    with TemporaryDirectory(prefix="r2x-episode-") as folder, ExitStack() as stack:
+        home = generate_home(arguments.seed, Path(folder) / "site.toml", "--robots", str(arguments.robots))
+        record = stack.enter_context(RecordingWriter(arguments.record)).write if arguments.record else None
+        result = run_episode(load_site(home), Path(folder), arguments.instruction, arguments.limit_s, record)
     print(json.dumps(result, indent=2, sort_keys=True))
 
 

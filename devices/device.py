@@ -39,8 +39,8 @@ class Job:
 class Device:
     """Takes goals for a worker."""
 
-    def __init__(self, id: str, boot_id: str, worker: Worker, journal: GoalsJournal, lost_hub_s: float) -> None:
-        self.id, self._boot_id, self._worker, self._journal = id, boot_id, worker, journal
+    def __init__(self, id: str, worker: Worker, journal: GoalsJournal, lost_hub_s: float) -> None:
+        self.id, self._worker, self._journal = id, worker, journal
         self._lost_hub_s = lost_hub_s
         self._left_over = journal.open_goals()
         self._job: Job | None = None
@@ -98,11 +98,11 @@ class Device:
         elif isinstance(message, GoalsRequest):
             request.reply(self._remembered())
         elif isinstance(message, CardRequest):
-            request.reply(self._worker.card())
+            request.reply(self._worker.card(self._node.boot_id))
 
     def _remembered(self) -> GoalsReply:
         return GoalsReply(
-            robot=self.id, boot_id=self._boot_id, epoch=self._journal.epoch, goals=self._journal.records()
+            robot=self.id, boot_id=self._node.boot_id, epoch=self._journal.epoch, goals=self._journal.records()
         )
 
     def _take(self, command: Command, now_s: float) -> CommandAck:

@@ -33,7 +33,7 @@ class Pose:
 class Worker(Protocol):
     """What actually does the work: one goal at a time."""
 
-    def card(self) -> DeviceCard: ...
+    def card(self, boot_id: str) -> DeviceCard: ...
 
     def fault_of(self, command: Command) -> str:
         """Why this command cannot be done by this device; empty when it can be tried."""

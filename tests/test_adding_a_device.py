@@ -36,8 +36,10 @@ class WallSwitch:
         """Turn off a lamp on this circuit."""
         self.lamp_on = False
 
-    def card(self) -> DeviceCard:
-        return DeviceCard(id="switch-1", kind="wallswitch", boot_id="test", skills=(self._skill.card(),), speed_mps=0.5)
+    def card(self, boot_id: str) -> DeviceCard:
+        return DeviceCard(
+            id="switch-1", kind="wallswitch", boot_id=boot_id, skills=(self._skill.card(),), speed_mps=0.5
+        )
 
     def fault_of(self, command: Command) -> str:
         return self._skill.fault_of(command) if command.action == "toggle_off" else "a switch only turns off"
@@ -65,7 +67,7 @@ class SwitchCore:
     """The process of the new device: the shell that every device has, around its own worker."""
 
     def __init__(self, worker: WallSwitch) -> None:
-        self._device = Device("switch-1", "test", worker, open_journal(), lost_hub_s=2.0)
+        self._device = Device("switch-1", worker, open_journal(), lost_hub_s=2.0)
 
     def start(self, node: Node) -> None:
         node.subscribe("traffic", "switch-1")  # a sign of life of the hub

@@ -64,6 +64,10 @@ class Node(Protocol):
     @property
     def id(self) -> str: ...
 
+    @property
+    def boot_id(self) -> str:
+        """Another one after every restart of the process (`wire.clock.boot_id`); known from the first step on."""
+
     def subscribe(self, topic: str, id: str | None = None) -> None:
         """Receive a topic; of one device, or of all when `id` is None."""
 

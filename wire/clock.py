@@ -23,6 +23,11 @@ class WallClock:
         return self._newest_s
 
 
+def boot_id(first_step_s: float) -> str:
+    """What a run of a process is called: the time of its first step, which a later run of it can never have."""
+    return f"{first_step_s:.6f}"
+
+
 class Roll:
     """Which followers are there, and which of them still owe their answer to the newest tick."""
 

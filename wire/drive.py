@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterable
 
 from wire.bus import Core, Event, Received
-from wire.clock import Pace, Roll, WallClock
+from wire.clock import Pace, Roll, WallClock, boot_id
 from wire.codec import M, WireError, decode
 from wire.letter import Kind, Letter
 from wire.messages.clock import Tick, TickDone
@@ -25,6 +25,7 @@ HANG_S = 5.0
 def drive_wall(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float) -> None:
     """Step every `step_s`, and at once when something comes."""
     clock = WallClock()
+    node.boot_id = boot_id(clock.now_s())
     core.start(node)
     node.announce()
     while not stopping():
@@ -36,6 +37,7 @@ def drive_wall(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, st
 def drive_spectator(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float) -> None:
     """Look on in lockstep without holding time up: events as they come, at the time of the newest tick."""
     now_s = 0.0
+    node.boot_id = boot_id(WallClock().now_s())  # it may step before it has heard of a tick
     node.subscribe("tick")
     core.start(node)
     node.announce()
@@ -60,6 +62,7 @@ def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping
         if tick is None:
             continue
         node.tick, node.now_s = tick.tick, tick.now_s
+        node.boot_id = node.boot_id or boot_id(tick.now_s)
         core.step(tick.now_s, node.mailbox.at_tick(tick.tick, tick.now_s))
         pulse.beat(tick.now_s)
         node.publish("tick_done", TickDone(tick=tick.tick, follower=node.id), node.id)
@@ -76,6 +79,7 @@ def drive_owner(
     node.announce()
     _gather(node, roll, stopping)
     tick = 0
+    node.boot_id = boot_id(0.0)
     while not stopping():
         node.tick, node.now_s = tick, tick * step_s
         core.step(node.now_s, node.mailbox.at_tick(tick, node.now_s))

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from wire.bus import Core, Reply
+from wire.clock import boot_id
 from wire.codec import encode
 from wire.keys import PRESENCE_PATH, Role
 from wire.letter import NO_TICK, Kind, Letter
@@ -34,6 +35,7 @@ class LoopbackNode:
         self.topics: set[tuple[str, str | None]] = set()
         self.services: set[tuple[str, str]] = set()
         self.watching = False
+        self.boot_id = ""
         self.mailbox = Mailbox(id)
         self.seq = 0
 
@@ -100,7 +102,7 @@ class LoopbackMesh:
     def add(self, core: Core, id: str, role: Role, owner: bool = False) -> None:
         """A process that starts with the next tick."""
         node = LoopbackNode(self, id, role)
-        self._arriving.append(_Member(node, core, Pulse(node, boot_id="loopback"), owner))
+        self._arriving.append(_Member(node, core, Pulse(node), owner))
 
     def remove(self, id: str, stop: bool = True) -> None:
         """A process that goes; with `stop` False as if killed."""
@@ -115,6 +117,7 @@ class LoopbackMesh:
         self._tick += 1
         for id in sorted(self._members, key=lambda id: (not self._members[id].owner, id)):
             member = self._members[id]
+            member.node.boot_id = member.node.boot_id or boot_id(self.now_s)
             member.core.step(self.now_s, member.node.mailbox.at_tick(self._tick, self.now_s))
             member.pulse.beat(self.now_s)
 

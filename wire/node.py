@@ -59,6 +59,8 @@ class ZenohNode:
         self._kept: list[Event] = []
         self.watching = False
         """The core asked for presence."""
+        self.boot_id = ""
+        """Written, as the two that follow, by whoever drives this node."""
         self.tick = NO_TICK
         self.now_s = 0.0
         self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)

@@ -96,7 +96,7 @@ def run(site: Site, process: str, role: Role, core: Core, stopping: Callable[[],
     leads, follows = process == owner, bool(owner) and role in FOLLOWER_ROLES
     with ZenohNode(link_for(site, process), process, role, leads or follows, owner) as node:
         release_startup_memory()
-        pulse = Pulse(node, boot_id=os.urandom(4).hex())
+        pulse = Pulse(node)
         log.info("%s is on the mesh at %s", process, site.router.endpoint)
         try:
             if leads:

@@ -12,9 +12,8 @@ Mode = Literal["starting", "ready", "busy", "holding", "stopping"]
 class Pulse:
     """Beats through `node` when it is due."""
 
-    def __init__(self, node: Node, boot_id: str) -> None:
+    def __init__(self, node: Node) -> None:
         self._node = node
-        self._boot_id = boot_id
         self._seq = 0
         self._due_s = 0.0
         self._last_s: float | None = None
@@ -28,7 +27,7 @@ class Pulse:
         self._due_s = now_s + PERIOD_S
         health = Health(
             process=self._node.id,
-            boot_id=self._boot_id,
+            boot_id=self._node.boot_id,
             seq=self._seq,
             stamp_s=now_s,
             loop_age_ms=round(age_s * 1000.0, 3),

@@ -1,7 +1,5 @@
 """Puts a camera's process together: its row of the site file, the shipped detector, its source of pictures."""
 
-import secrets
-
 from devices.cctv.core import MESH, CctvCore, camera_of
 from devices.cctv.reader import SourceReader
 from devices.vision.detector import Detector, EmbeddedDetector
@@ -12,10 +10,9 @@ def build(
     site: Site,
     process: str,
     camera: str | None = None,
-    boot_id: str | None = None,
     detector: Detector | None = None,
 ) -> CctvCore:
-    """Runs in one process may share one detector, which keeps nothing, and give their own boot ids."""
+    """Runs in one process may share one detector, which keeps nothing."""
     row = camera_of(site, process, camera)
     pictures = None if row.source == MESH else SourceReader(row)
-    return CctvCore(site, process, row, detector or EmbeddedDetector(), boot_id or secrets.token_hex(4), pictures)
+    return CctvCore(site, process, row, detector or EmbeddedDetector(), pictures)

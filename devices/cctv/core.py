@@ -40,11 +40,9 @@ class Pictures(Protocol):
 class CctvCore:
     """Looks at its camera's pictures, at the camera's rate, with the calibration of the site file."""
 
-    def __init__(
-        self, site: Site, process: str, camera: Camera, detector: Detector, boot_id: str, pictures: Pictures | None
-    ) -> None:
+    def __init__(self, site: Site, process: str, camera: Camera, detector: Detector, pictures: Pictures | None) -> None:
         self._site, self._process, self._camera = site, process, camera
-        self._detector, self._boot_id, self._pictures = SteadyDetector(detector), boot_id, pictures
+        self._detector, self._pictures = SteadyDetector(detector), pictures
         self._looks: Pending[Seen | None] = Pending(f"look-{camera.id}")
         self._lens = Lens.of_camera(camera)
         self._view = floor_view(self._lens, site.wall, site.door)
@@ -84,7 +82,7 @@ class CctvCore:
             self._pictures.stop()
 
     def _card(self) -> DeviceCard:
-        return DeviceCard(id=self._camera.id, kind="camera", boot_id=self._boot_id)
+        return DeviceCard(id=self._camera.id, kind="camera", boot_id=self._node.boot_id)
 
     def _due(self, stamp_s: float) -> bool:
         return self._looked_s is None or stamp_s - self._looked_s >= SLACK / self._camera.picture_hz
@@ -127,7 +125,7 @@ class CctvCore:
         self._seq += 1
         batch = ObservationBatch(
             source=self._camera.id,
-            boot_id=self._boot_id,
+            boot_id=self._node.boot_id,
             seq=self._seq,
             stamp_s=seen.stamp_s,
             kind="cctv",

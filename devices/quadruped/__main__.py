@@ -1,7 +1,6 @@
 """`python -m devices.quadruped --site FILE --id ROBOT`: one robot on the mesh."""
 
 import argparse
-import secrets
 from pathlib import Path
 
 from devices.goals_journal import open_journal
@@ -21,18 +20,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def build(site: Site, process_id: str, journal: Path | None = None, no_vision: bool = False) -> QuadrupedCore:
-    boot_id = secrets.token_hex(4)
     path = journal or state_dir(site) / f"{process_id}.sqlite"
-    eyes = None if no_vision else open_eyes(site, process_id, boot_id)
-    return QuadrupedCore(site, process_id, boot_id, open_journal(path), eyes)
+    eyes = None if no_vision else open_eyes(site, process_id)
+    return QuadrupedCore(site, process_id, open_journal(path), eyes)
 
 
-def open_eyes(site: Site, robot: str, boot_id: str) -> Eyes:
+def open_eyes(site: Site, robot: str) -> Eyes:
     """Own perception with the shipped detector. Imported only here: a robot without vision does without its memory."""
     from devices.quadruped.eyes import PictureEyes
     from devices.vision.detector import EmbeddedDetector
 
-    return PictureEyes(site, robot, boot_id, EmbeddedDetector())
+    return PictureEyes(site, robot, EmbeddedDetector())
 
 
 if __name__ == "__main__":

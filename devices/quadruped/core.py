@@ -24,15 +24,15 @@ EARLY_S = 1e-6
 class QuadrupedCore:
     """Without eyes it walks by its lidar and reports nothing that it sees."""
 
-    def __init__(self, site: Site, id: str, boot_id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
+    def __init__(self, site: Site, id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
         row = next((robot for robot in site.robot if robot.id == id), None)
         if row is None:
             raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
         self._id = id
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._body = Body(id, FloorMap(site), sighted=eyes is not None)
-        worker = QuadrupedWorker(Robot(self._body, site), boot_id)
-        self._device = Device(id, boot_id, worker, journal, row.lost_hub_s)
+        worker = QuadrupedWorker(Robot(self._body, site))
+        self._device = Device(id, worker, journal, row.lost_hub_s)
         self._journal, self._eyes = journal, eyes
         self._looks: Pending[tuple[Look, ObservationBatch] | None] = Pending(f"look-{id}")
         self._control_due_s = 0.0
@@ -68,7 +68,8 @@ class QuadrupedCore:
         if not isinstance(message, CameraFrame):
             self._body.hear(message)
         elif self._eyes is not None:
-            self._looks.begin(now_s, partial(self._eyes.look, message, self._body.holding))
+            look = partial(self._eyes.look, message, self._body.holding, self._node.boot_id)
+            self._looks.begin(now_s, look)
 
     def stop(self) -> None:
         self._looks.close()

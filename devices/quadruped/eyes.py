@@ -35,12 +35,12 @@ SUSPICION = 0.12
 class PictureEyes:
     """Own perception of one robot."""
 
-    def __init__(self, site: Site, robot: str, boot_id: str, detector: Detector) -> None:
-        self._site, self._robot, self._boot_id, self._detector = site, robot, boot_id, SteadyDetector(detector)
+    def __init__(self, site: Site, robot: str, detector: Detector) -> None:
+        self._site, self._robot, self._detector = site, robot, SteadyDetector(detector)
         self._tracker = Tracker()
         self._seq = 0
 
-    def look(self, frame: CameraFrame, carrying: bool) -> tuple[Look, ObservationBatch] | None:
+    def look(self, frame: CameraFrame, carrying: bool, boot_id: str) -> tuple[Look, ObservationBatch] | None:
         """See devices.quadruped.look.Eyes."""
         try:
             seen = look_at_frame(frame, self._detector)
@@ -54,7 +54,7 @@ class PictureEyes:
         self._seq += 1
         batch = ObservationBatch(
             source=self._robot,
-            boot_id=self._boot_id,
+            boot_id=boot_id,
             seq=self._seq,
             stamp_s=frame.stamp_s,
             kind="robot",

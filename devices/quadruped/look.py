@@ -47,5 +47,5 @@ class Look:
 class Eyes(Protocol):
     """Turns pictures into looks, and into what is reported to everybody."""
 
-    def look(self, frame: CameraFrame, carrying: bool) -> tuple[Look, ObservationBatch] | None:
+    def look(self, frame: CameraFrame, carrying: bool, boot_id: str) -> tuple[Look, ObservationBatch] | None:
         """None when the frame holds no picture."""

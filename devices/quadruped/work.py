@@ -54,17 +54,17 @@ class Pace(Generic[End]):
 class QuadrupedWorker:
     """Runs one skill at a time, a step at a time; a traffic order to step aside comes before it."""
 
-    def __init__(self, robot: Robot, boot_id: str) -> None:
-        self._robot, self._body, self._boot_id = robot, robot.body, boot_id
+    def __init__(self, robot: Robot) -> None:
+        self._robot, self._body = robot, robot.body
         self._skill: Pace[Outcome] | None = None
         self._aside: Pace[None] | None = None
         self._aside_m: Vec2 | None = None
 
-    def card(self) -> DeviceCard:
+    def card(self, boot_id: str) -> DeviceCard:
         return DeviceCard(
             id=self._body.id,
             kind="quadruped",
-            boot_id=self._boot_id,
+            boot_id=boot_id,
             skills=tuple(skill.card() for skill in SKILLS.values()),
             payload_kg=PAYLOAD_KG,
             radius_m=RADIUS_M,

@@ -20,8 +20,8 @@ def test_finds_the_fridge_and_inspects_it() -> None:
     hub, mesh = Hub(), LoopbackMesh()
     mesh.add(build(site, "sim"), "sim", "sim", owner=True)
     mesh.add(hub, "hub", "hub")
-    eyes = PictureEyes(site, "dog-1", "boot-1", EmbeddedDetector())
-    mesh.add(QuadrupedCore(site, "dog-1", "boot-1", open_journal(), eyes), "dog-1", "robot")
+    eyes = PictureEyes(site, "dog-1", EmbeddedDetector())
+    mesh.add(QuadrupedCore(site, "dog-1", open_journal(), eyes), "dog-1", "robot")
     hub.send(command("g-1", action="explore", room="kitchen", looking_for=("Fridge",), timeout_s=90.0))
     while not hub.results and mesh.now_s < 100.0:
         mesh.tick()

@@ -35,8 +35,8 @@ class Counting:
         self.progress = (0.5, "working")
         self.pose = Pose((1.0, 2.0, 0.0), 0.0, (), 3.0, 4, False, False)
 
-    def card(self) -> DeviceCard:
-        return DeviceCard(id="dog-1", kind="quadruped", boot_id="b")
+    def card(self, boot_id: str) -> DeviceCard:
+        return DeviceCard(id="dog-1", kind="quadruped", boot_id=boot_id)
 
     def fault_of(self, given: Command) -> str:
         return "" if given.point_m is not None else "goto: a point is missing"
@@ -62,7 +62,7 @@ class Counting:
 class Wire:
     """Collects what the device publishes."""
 
-    id = "dog-1"
+    id, boot_id = "dog-1", "boot-1"
 
     def __init__(self) -> None:
         self.sent: list[Message] = []
@@ -83,7 +83,7 @@ class Bench:
     def __init__(self, journal: GoalsJournal | None = None, worker: Counting | None = None) -> None:
         self.journal, self.worker, self.wire = journal or open_journal(), worker or Counting(), Wire()
         self.now_s = 10.0
-        self.device = Device("dog-1", "boot-1", self.worker, self.journal, lost_hub_s=2.0)
+        self.device = Device("dog-1", self.worker, self.journal, lost_hub_s=2.0)
         self.device.start(self.wire)
 
     def ask(self, message: Message, service: str = "goal") -> Message:

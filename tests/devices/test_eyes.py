@@ -46,11 +46,11 @@ def frame(depth_m: float, jpeg: bytes | None = None, tilt_down_rad: float = 0.4)
 
 @pytest.fixture
 def eyes() -> PictureEyes:
-    return PictureEyes(two_rooms(), "dog-1", "boot-1", Said())
+    return PictureEyes(two_rooms(), "dog-1", Said())
 
 
 def test_names_what_it_sees_and_where(eyes: PictureEyes) -> None:
-    seen = eyes.look(frame(1.5), carrying=False)
+    seen = eyes.look(frame(1.5), carrying=False, boot_id="boot-1")
     assert seen is not None
     look, batch = seen
     assert [thing.type for thing in look.things] == ["Apple"]
@@ -66,19 +66,19 @@ def test_names_what_it_sees_and_where(eyes: PictureEyes) -> None:
 
 def test_the_load_is_not_reported(eyes: PictureEyes) -> None:
     in_hand = frame(0.64, tilt_down_rad=1.05)
-    with_load = eyes.look(in_hand, carrying=True)
+    with_load = eyes.look(in_hand, carrying=True, boot_id="boot-1")
     assert with_load is not None
     assert not with_load[0].things
-    without = eyes.look(in_hand, carrying=False)
+    without = eyes.look(in_hand, carrying=False, boot_id="boot-1")
     assert without is not None
     assert without[0].things
-    beyond = eyes.look(frame(2.0), carrying=True)
+    beyond = eyes.look(frame(2.0), carrying=True, boot_id="boot-1")
     assert beyond is not None
     assert beyond[0].things
 
 
 def test_what_is_no_picture_is_skipped(eyes: PictureEyes) -> None:
-    assert eyes.look(frame(1.0, jpeg=b"no picture"), carrying=False) is None
+    assert eyes.look(frame(1.0, jpeg=b"no picture"), carrying=False, boot_id="boot-1") is None
 
 
 def test_surfaces_lie_where_the_depth_says() -> None:

@@ -22,7 +22,7 @@ class House:
         self.hub, self.mesh, self.count = Hub(), LoopbackMesh(), 0
         self.mesh.add(self.sim, "sim", "sim", owner=True)
         self.mesh.add(self.hub, "hub", "hub")
-        self.mesh.add(QuadrupedCore(self._site(), "dog-1", "boot-1", open_journal()), "dog-1", "robot")
+        self.mesh.add(QuadrupedCore(self._site(), "dog-1", open_journal()), "dog-1", "robot")
 
     def _site(self) -> Site:
         walls = tuple(Wall(start_m=w.start_m, end_m=w.end_m) for w in self.scene.walls)

@@ -24,7 +24,7 @@ class Room:
         self.eyes = ToldEyes(self.driver)
         self.mesh.add(self.driver, "sim", "sim", owner=True)
         self.mesh.add(self.hub, "hub", "hub")
-        self.mesh.add(QuadrupedCore(site, "dog-1", "boot-1", open_journal(), self.eyes), "dog-1", "robot")
+        self.mesh.add(QuadrupedCore(site, "dog-1", open_journal(), self.eyes), "dog-1", "robot")
         self.count = 0
 
     def do(self, action: str, limit_s: float = 60.0, **fields: object) -> Result:

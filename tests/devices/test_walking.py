@@ -21,7 +21,7 @@ class Yard:
         self.journal = open_journal()
         self.mesh.add(self.driver, "sim", "sim", owner=True)
         self.mesh.add(self.hub, "hub", "hub")
-        self.mesh.add(QuadrupedCore(site, "dog-1", "boot-1", self.journal), "dog-1", "robot")
+        self.mesh.add(QuadrupedCore(site, "dog-1", self.journal), "dog-1", "robot")
 
     def until_result(self, limit_s: float) -> None:
         count = len(self.hub.results)

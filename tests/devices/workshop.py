@@ -123,7 +123,7 @@ class ToldEyes:
         self._workshop = workshop
         self.carried: list[bool] = []
 
-    def look(self, frame: CameraFrame, carrying: bool) -> tuple[Look, ObservationBatch]:
+    def look(self, frame: CameraFrame, carrying: bool, boot_id: str) -> tuple[Look, ObservationBatch]:
         self.carried.append(carrying)
         things = tuple(self._thing(item) for item in self._workshop.items if self._visible(item, frame))
         look = Look(
@@ -134,7 +134,7 @@ class ToldEyes:
             things,
             np.zeros((0, 3), np.float32),
         )
-        batch = ObservationBatch(source="dog-1", boot_id="b", seq=frame.seq, stamp_s=frame.stamp_s, kind="robot")
+        batch = ObservationBatch(source="dog-1", boot_id=boot_id, seq=frame.seq, stamp_s=frame.stamp_s, kind="robot")
         return look, batch
 
     def _thing(self, item: Item) -> Thing:

@@ -9,9 +9,10 @@ from threading import Thread
 import pytest
 
 from tests.walk.mesh import ROLES, WalkMesh, core_for
-from wire.bus import Presence, Received, Reply
+from wire.bus import Event, Presence, Received, Reply
 from wire.link import MeshError, link_for
 from wire.loopback import LoopbackMesh
+from wire.messages.clock import Health
 from wire.messages.command import CardRequest, DeviceCard
 from wire.messages.observation import EventLog
 from wire.node import ZenohNode, node_for
@@ -48,9 +49,21 @@ def at_rest(mesh: WalkMesh) -> None:
     mesh.wait(lambda: len(mesh.diary("sim")) > 10)
 
 
+def boot_id(mesh: WalkMesh, process: str) -> str:
+    """What a process calls its run in its heartbeat."""
+    with node_for(mesh.site, "console-1", "console") as console:
+        console.subscribe("health", process)
+        heard: list[Event] = []
+        mesh.wait(lambda: bool(heard.extend(console.collect(0.1)) or heard))
+    assert isinstance(heard[0], Received)
+    assert isinstance(heard[0].message, Health)
+    return heard[0].message.boot_id
+
+
 def test_kill_9_is_noticed_and_time_goes_on(tmp_path: Path) -> None:
     with WalkMesh(tmp_path) as mesh:
         at_rest(mesh)
+        before = boot_id(mesh, "dog-2")
         mesh.processes["dog-2"].kill()
         mesh.processes["dog-2"].wait()
         mesh.wait(lambda: any("dog-2 went" in line for line in mesh.diary("hub")))
@@ -59,6 +72,7 @@ def test_kill_9_is_noticed_and_time_goes_on(tmp_path: Path) -> None:
         mesh.run_core("dog-2")
         mesh.wait(lambda: sum("dog-2 came" in line for line in mesh.diary("hub")) == 2)
         mesh.wait(lambda: "velocity/dog-2" in mesh.diary("sim")[-1])
+        assert boot_id(mesh, "dog-2") != before, "who knew it before notices that it is another run"
 
 
 def test_a_frozen_process_is_noticed_and_comes_back(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import pytest
 
 from tests.wire.cores import Clockwork, Diary, Gossip, Walker
 from wire.bus import Event, Node, Received, Request
+from wire.codec import decode
 from wire.loopback import LoopbackMesh
 from wire.messages.clock import Health
 from wire.messages.command import CardRequest
@@ -51,6 +52,24 @@ def test_presence_of_who_goes_and_comes() -> None:
     mesh.tick()
     came_and_went = [line for line in hub.lines if "came" in line or "went" in line]
     assert came_and_went[3:] == ["0.05 dog-1 went", "0.10 dog-3 came"]
+
+
+def test_a_restarted_process_has_another_boot_id_and_an_equal_run_the_same() -> None:
+    def boot_ids() -> list[str]:
+        said: list[Health] = []
+        mesh = LoopbackMesh(
+            0.05, lambda *row: said.append(decode(Health, row[4])) if row[1] == "health/dog-1" else None
+        )
+        mesh.add(Walker(), "dog-1", "robot")
+        mesh.run(2.0)
+        mesh.remove("dog-1", stop=False)
+        mesh.add(Walker(), "dog-1", "robot")
+        mesh.run(2.0)
+        return [health.boot_id for health in said]
+
+    first, *_, last = boot_ids()
+    assert first != last
+    assert boot_ids() == [first] * 4 + [last] * 4
 
 
 def test_two_runs_are_the_same() -> None:

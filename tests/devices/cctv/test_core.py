@@ -123,7 +123,7 @@ class OwnPictures:
 
 
 def core(pictures: OwnPictures | None = None) -> CctvCore:
-    return CctvCore(site(), "cctv-1", site().camera[0], MarkerDetector(), "b1", pictures)
+    return CctvCore(site(), "cctv-1", site().camera[0], MarkerDetector(), pictures)
 
 
 def run(seconds: float, driver: Driver) -> Listener:

@@ -1,7 +1,7 @@
 """`python -m devices.quadruped --site FILE --id ROBOT`: one robot on the mesh."""
 
 import argparse
-import secrets
+import os
 from pathlib import Path
 
 from devices.goals_journal import open_journal
@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def build(site: Site, process_id: str, journal: Path | None = None, no_vision: bool = False) -> QuadrupedCore:
-    boot_id = secrets.token_hex(4)
+    boot_id = os.urandom(4).hex()
     path = journal or state_dir(site) / f"{process_id}.sqlite"
     eyes = None if no_vision else open_eyes(site, process_id, boot_id)
     return QuadrupedCore(site, process_id, boot_id, open_journal(path), eyes)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 SETTLED_S = 5.0
-"""So long after its first pass the loop has touched what it goes on using."""
+"""So long after it began the loop no longer does what is done but once."""
 _ARENAS = 2
 """glibc's default of eight per core holds on to memory for idle threads."""
 _M_ARENA_MAX = -8
@@ -48,9 +48,9 @@ def untouched_files(smaps: str) -> Iterator[tuple[int, int]]:
             yield start, length
 
 
-def settling(stopping: Callable[[], bool]) -> Callable[[], bool]:
+def settling(stopping: Callable[[], bool], after_s: float = SETTLED_S) -> Callable[[], bool]:
     """`stopping`, which the loop asks in every pass, and start-up's memory given back once more when it has settled."""
-    due_s = time.monotonic() + SETTLED_S
+    due_s = time.monotonic() + after_s
 
     def check() -> bool:
         nonlocal due_s

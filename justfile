@@ -6,7 +6,7 @@ set no-exit-message
 
 python := justfile_directory() / ".venv/bin/python"
 export PYTHONPATH := justfile_directory()
-export PYTHONDONTWRITEBYTECODE := "1"
+export PYTHONPYCACHEPREFIX := justfile_directory() / ".venv/bytecode"
 
 [private]
 default:

@@ -82,10 +82,7 @@ def _program(row: Process, places: Places) -> str:
 
 
 def _environment(places: Places) -> str:
-    """One computing thread per process: the mesh has more processes than the machine has cores.
-
-    Two allocation arenas are enough for them; glibc's default of eight per core holds on to memory for idle threads.
-    """
+    """One computing thread per process: the mesh has more processes than the machine has cores."""
     values = {
         "R2X_CREDENTIALS": str(places.credentials),
         "R2X_STATE": str(places.run_dir),
@@ -95,7 +92,6 @@ def _environment(places: Places) -> str:
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
         "LP_NUM_THREADS": "1",
-        "MALLOC_ARENA_MAX": "2",
     }
     return ",".join(f'{k}="{_percent(v)}"' for k, v in values.items() if v)
 

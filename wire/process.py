@@ -9,7 +9,6 @@ Exit codes: 0 stopped as asked, 1 a fault that the core or the mesh names in a s
 
 import argparse
 import ctypes
-import gc
 import logging
 import os
 import signal
@@ -22,6 +21,7 @@ from typing import NoReturn
 from wire.bus import CannotRun, Core
 from wire.clock import FOLLOWER_ROLES, followers_of, owner_of
 from wire.drive import drive_follower, drive_owner, drive_spectator, drive_wall
+from wire.footprint import limit_arenas, release_startup_memory, settling
 from wire.keys import ROLES, Role
 from wire.link import MeshError, link_for
 from wire.node import ZenohNode
@@ -73,6 +73,7 @@ def main(
     if add_arguments is not None:
         add_arguments(parser)
     arguments = vars(parser.parse_args(argv))
+    limit_arenas()
     set_up_logging()
     stopping = StopFlag()
     stopping.install()
@@ -96,6 +97,7 @@ def run(site: Site, process: str, role: Role, core: Core, stopping: Callable[[],
     leads, follows = process == owner, bool(owner) and role in FOLLOWER_ROLES
     with ZenohNode(link_for(site, process), process, role, leads or follows, owner) as node:
         release_startup_memory()
+        stopping = settling(stopping)
         pulse = Pulse(node)
         log.info("%s is on the mesh at %s", process, site.router.endpoint)
         try:
@@ -137,13 +139,6 @@ def set_up_logging() -> None:
         os._exit(EXIT_BUG)
 
     sys.excepthook = on_bug
-
-
-def release_startup_memory() -> None:
-    """Give back what imports used once, and keep the collector from walking what stays for good."""
-    gc.collect()
-    gc.freeze()
-    ctypes.CDLL(None).malloc_trim(0)
 
 
 def die_with_parent() -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from wire.access import access_control, write_credentials
+from wire.footprint import limit_arenas, settling
 from wire.link import MeshError, common_config, credentials_dir
 from wire.node import open_session
 from wire.process import EXIT_USAGE, StopFlag, die_with_parent, set_up_logging, stop_with
@@ -72,11 +73,12 @@ def main() -> None:
     parser.add_argument("--id", default="router")
     arguments = parser.parse_args()
     set_up_logging()
+    limit_arenas()
     stopping = StopFlag()
     stopping.install()
     die_with_parent()
     try:
-        run(load_site(arguments.site), stopping)
+        run(load_site(arguments.site), settling(stopping))
     except (SiteError, PortError) as error:
         stop_with(EXIT_USAGE, error)
     sys.exit(0)

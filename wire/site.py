@@ -119,7 +119,7 @@ class View(Message):
 
     grpc_port: int = Field(default=9876, gt=0, lt=65536)
     web_port: int = Field(default=9090, gt=0, lt=65536)
-    memory_limit: str = Field(default="256MiB", pattern=r"^\d+(KiB|MiB|GiB)$")
+    memory_limit: str = Field(default="64MiB", pattern=r"^\d+(KiB|MiB|GiB)$")
     save: str = ""
 
 

@@ -8,6 +8,7 @@ import rerun as rr
 from hub.view.blueprint import blueprint
 from hub.view.drawing import Drawing
 from hub.view.house import draw_house
+from hub.view.light import do_without_pandas
 from wire.bus import CannotRun, Event, Node, Received, Reply
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
@@ -52,7 +53,6 @@ class ViewCore:
         node.ask("snapshot", SnapshotRequest())
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
-        del now_s  # everything is drawn at its own stamp
         for event in events:
             if isinstance(event, Received):
                 self._handlers[type(event.message)](event.message)
@@ -63,6 +63,7 @@ class ViewCore:
                     robots=world.robots, objects=world.objects, areas=world.areas,
                 )  # fmt: skip
                 self._drawing.world(whole)
+        self._drawing.again(now_s)
 
     def stop(self) -> None:
         self._rec.flush()
@@ -85,6 +86,7 @@ def check_port(port: int) -> None:
 def open_recording(site: Site) -> rr.RecordingStream:
     """A recording that serves live viewers on loopback and, when the site names a file, writes it too."""
     check_port(site.view.grpc_port)
+    do_without_pandas()
     rec = rr.RecordingStream("r2x", recording_id=f"r2x-{site.name}")
     sinks: list[rr.GrpcServerSink | rr.FileSink] = [
         rr.GrpcServerSink(bind_ip="127.0.0.1", port=site.view.grpc_port, server_memory_limit=site.view.memory_limit)

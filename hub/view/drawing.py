@@ -1,9 +1,12 @@
-"""Draws messages: one method per topic, each at most as often as a person can use it."""
+"""Draws messages: one method per topic, each at most as often as a person can use it, and only what is new."""
+
+from collections import deque
+from math import inf
 
 import rerun as rr
 
 from hub.view.blueprint import TIMELINE
-from hub.view.house import heading_arrow, place_camera
+from hub.view.house import draw_robot, place_camera, place_lens
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
 from wire.messages.observation import EventLog, ObservationBatch
@@ -19,30 +22,55 @@ _NODE_RGB = {
     "cancelled": (110, 80, 120),
 }
 _ROBOT_RGB = ((255, 150, 30), (40, 160, 255), (210, 80, 220), (60, 200, 120), (240, 220, 60), (250, 90, 90))
+_BOX_RGB = (90, 230, 120)
 _PICTURE_EVERY_S = 0.5
+_ROBOT_EVERY_S, _PATH_EVERY_S = 0.2, 0.5
 _STALE_AFTER_S = 60.0
+_AGAIN_S = 10.0
+"""What stays the same is drawn again this often: the server lets the oldest go, and a browser may join late."""
+_TRAIL_POINTS = 1000
+"""Of the way that a robot came: some hundred metres."""
 
 
 class Drawing:
-    """Keeps what must be drawn together (all objects are one batch) and when each thing was last drawn."""
+    """Keeps what must be drawn together (all objects are one batch), and what was drawn last and when."""
 
     def __init__(self, rec: rr.RecordingStream) -> None:
         self._rec = rec
         self._objects: dict[str, ObjectState] = {}
-        self._trails: dict[str, list[tuple[float, float, float]]] = {}
+        self._trails: dict[str, deque[tuple[float, float, float]]] = {}
         self._doing: dict[str, str] = {}
         self._robots: set[str] = set()
         self._drawn_s: dict[str, float] = {}
-        self._logged: dict[str, int] = {}
+        self._shown: dict[str, object] = {}
+        self._plan: PlanState | None = None
+        self._task: TaskState | None = None
 
     def at(self, now_s: float) -> None:
         self._rec.set_time(TIMELINE, duration=now_s)
 
     def _due(self, entity: str, now_s: float, every_s: float) -> bool:
-        if now_s - self._drawn_s.get(entity, -1e9) < every_s:
+        """A clock that was set back, as by a simulator that starts anew, makes everything due."""
+        if 0.0 <= now_s - self._drawn_s.get(entity, -inf) < every_s:
             return False
         self._drawn_s[entity] = now_s
         return True
+
+    def _news(self, entity: str, now_s: float, value: object) -> bool:
+        """Whether this differs from what was drawn last, or that is long ago."""
+        if self._shown.get(entity) == value and not self._due(entity, now_s, _AGAIN_S):
+            return False
+        self._shown[entity], self._drawn_s[entity] = value, now_s
+        return True
+
+    def again(self, now_s: float) -> None:
+        """What is told but once, for those who join late."""
+        if self._due("again", now_s, _AGAIN_S):
+            self.at(now_s)
+            if self._plan is not None:
+                self._draw_plan(self._plan)
+            if self._task is not None:
+                self._draw_task(self._task)
 
     def frame(self, frame: CameraFrame) -> None:
         if not self._due(f"picture/{frame.camera}", frame.stamp_s, _PICTURE_EVERY_S):
@@ -50,67 +78,68 @@ class Drawing:
         self.at(frame.stamp_s)
         path = f"world/cameras/{frame.camera}/picture"
         if frame.depth_mm is not None:  # a camera that measures depth rides on a robot
-            place_camera(self._rec, frame.camera, frame.position_enu_m, frame.yaw_rad, frame.tilt_down_rad)
-            self._rec.log(
-                path,
-                rr.Pinhole(
-                    resolution=[frame.width_px, frame.height_px], focal_length=frame.focal_px,
-                    camera_xyz=rr.ViewCoordinates.RDF, image_plane_distance=0.4,
-                ),
-            )  # fmt: skip
-        self._rec.log(path, rr.EncodedImage(contents=frame.jpeg, media_type="image/jpeg"))
+            self._place(frame, path)
+        if self._news(path, frame.stamp_s, frame.jpeg):
+            self._rec.log(path, rr.EncodedImage(contents=frame.jpeg, media_type="image/jpeg"))
+
+    def _place(self, frame: CameraFrame, path: str) -> None:
+        pose = (frame.position_enu_m, frame.yaw_rad, frame.tilt_down_rad)
+        if self._news(f"pose/{frame.camera}", frame.stamp_s, pose):
+            place_camera(self._rec, frame.camera, *pose)
+        lens = (frame.width_px, frame.height_px, frame.focal_px)
+        if self._shown.get(f"lens/{frame.camera}") != lens:
+            self._shown[f"lens/{frame.camera}"] = lens
+            place_lens(self._rec, frame.camera, *lens, plane_m=0.4)
 
     def observation(self, batch: ObservationBatch) -> None:
-        boxes = [(o, o.box_px) for o in batch.objects if o.box_px is not None]
+        boxes = [(o.box_px, f"{o.type} {o.confidence:.2f}") for o in batch.objects if o.box_px is not None]
         self.at(batch.stamp_s)
-        self._rec.log(
-            f"world/cameras/{batch.source}/picture/seen",
-            rr.Boxes2D(
-                mins=[(b[0], b[1]) for _, b in boxes],
-                sizes=[(b[2] - b[0], b[3] - b[1]) for _, b in boxes],
-                labels=[f"{o.type} {o.confidence:.2f}" for o, _ in boxes],
-                colors=[(90, 230, 120)] * len(boxes),
-            ),
-        )
-        if batch.view is not None and self._due(f"view/{batch.source}", batch.stamp_s, 1.0):
+        path = f"world/cameras/{batch.source}/picture/seen"
+        if self._news(path, batch.stamp_s, boxes):
+            self._rec.log(
+                path,
+                rr.Boxes2D(
+                    mins=[(b[0], b[1]) for b, _ in boxes],
+                    sizes=[(b[2] - b[0], b[3] - b[1]) for b, _ in boxes],
+                    labels=[label for _, label in boxes],
+                    colors=_BOX_RGB,
+                ),
+            )
+        view = f"world/views/{batch.source}"
+        if batch.view is not None and self._news(view, batch.stamp_s, batch.view.polygon_m):
             ring = [(x, y, 0.03) for x, y in (*batch.view.polygon_m, *batch.view.polygon_m[:1])]
-            self._rec.log(f"world/views/{batch.source}", rr.LineStrips3D([ring], colors=[(120, 200, 255, 120)]))
+            self._rec.log(view, rr.LineStrips3D([ring], colors=[(120, 200, 255, 120)]))
 
     def report(self, report: RobotReport) -> None:
-        if not self._due(f"robot/{report.robot}", report.stamp_s, 0.1):
+        if not self._due(f"report/{report.robot}", report.stamp_s, _ROBOT_EVERY_S):
             return
         self.at(report.stamp_s)
+        if report.robot not in self._trails:
+            self._trails[report.robot] = deque(maxlen=_TRAIL_POINTS)
+            draw_robot(self._rec, report.robot, self._robot_rgb(report.robot))
         path, rgb = f"world/robots/{report.robot}", self._robot_rgb(report.robot)
-        x, y, z = report.position_enu_m
-        turn = rr.RotationAxisAngle(axis=[0, 0, 1], radians=report.yaw_rad)
-        self._rec.log(
-            path,
-            rr.Boxes3D(
-                centers=[(x, y, z + 0.28), (x, y, z + 0.88)],
-                half_sizes=[(0.32, 0.17, 0.16), (0.03, 0.03, 0.42)],
-                rotation_axis_angles=[turn, turn],
-                colors=[rgb, (60, 60, 60)],
-                labels=[report.robot, ""],
-                fill_mode="solid",
-            ),
-        )
-        nose = heading_arrow(report.yaw_rad, 0.55)
-        self._rec.log(f"{path}/heading", rr.Arrows3D(origins=[(x, y, z + 0.45)], vectors=[nose], colors=[rgb]))
-        ahead = [(x, y, 0.05), *((px, py, 0.05) for px, py in report.path_m)]
-        self._rec.log(f"{path}/path", rr.LineStrips3D([ahead], colors=[rgb], radii=0.02))
+        position_m, yaw_rad = report.position_enu_m, report.yaw_rad
+        if self._news(path, report.stamp_s, (position_m, yaw_rad)):
+            turn = rr.RotationAxisAngle(axis=[0, 0, 1], radians=yaw_rad)
+            self._rec.log(path, rr.Transform3D(translation=position_m, rotation_axis_angle=turn))
+        x, y, _ = position_m
+        if self._due(f"path/{report.robot}", report.stamp_s, _PATH_EVERY_S):
+            ahead = [(x, y, 0.05), *((px, py, 0.05) for px, py in report.path_m)] if report.path_m else []
+            if self._news(f"world/paths/{report.robot}", report.stamp_s, ahead):
+                self._rec.log(f"world/paths/{report.robot}", rr.LineStrips3D([ahead], colors=[rgb], radii=0.02))
         self._trail(report.robot, (x, y, 0.04), report.stamp_s, rgb)
-        self._rec.log(f"metrics/travelled_m/{report.robot}", rr.Scalars(report.travelled_m))
+        if self._due(f"travelled/{report.robot}", report.stamp_s, 1.0):
+            self._rec.log(f"metrics/travelled_m/{report.robot}", rr.Scalars(report.travelled_m))
 
     def _trail(self, robot: str, point: tuple[float, float, float], now_s: float, rgb: tuple[int, int, int]) -> None:
-        trail = self._trails.setdefault(robot, [])
+        trail = self._trails[robot]
         if not trail or max(abs(point[0] - trail[-1][0]), abs(point[1] - trail[-1][1])) > 0.1:
             trail.append(point)
-        if self._due(f"trail/{robot}", now_s, 2.0):
+        if self._due(f"trail/{robot}", now_s, 2.0) and self._news(f"world/trails/{robot}", now_s, trail[-1]):
             faded = (*rgb, 110)
-            self._rec.log(f"world/trails/{robot}", rr.LineStrips3D([trail], colors=[faded], radii=0.015))
+            self._rec.log(f"world/trails/{robot}", rr.LineStrips3D([list(trail)], colors=[faded], radii=0.015))
 
     def _robot_rgb(self, robot: str) -> tuple[int, int, int]:
-        self._trails.setdefault(robot, [])
         return _ROBOT_RGB[list(self._trails).index(robot) % len(_ROBOT_RGB)]
 
     def world(self, delta: WorldDelta) -> None:
@@ -124,8 +153,9 @@ class Drawing:
             if robot.status not in ("executing", "idle"):
                 self._show_doing(robot.id, robot.status)
         for area in delta.areas:
-            self._rec.log(f"metrics/seen/{area.id}", rr.Scalars(area.seen_fraction))
-        if self._due("objects", delta.stamp_s, 0.5):
+            if self._due(f"metrics/seen/{area.id}", delta.stamp_s, 1.0):
+                self._rec.log(f"metrics/seen/{area.id}", rr.Scalars(area.seen_fraction))
+        if self._due("objects", delta.stamp_s, 1.0):
             self._draw_objects(delta.stamp_s)
 
     def _draw_objects(self, now_s: float) -> None:
@@ -148,7 +178,16 @@ class Drawing:
             self._rec.log(f"tasks/{robot}", rr.StateChange(state=doing))
 
     def plan(self, state: PlanState) -> None:
+        self._plan = state
         self.at(state.stamp_s)
+        self._draw_plan(state)
+        self._rec.log("metrics/replans", rr.Scalars(float(state.replans)))
+        labels = {n.id: self._node_label(n) for n in state.plan.nodes}
+        running = {n.robot: labels[n.id] for n in state.nodes if n.status == "running" and n.robot is not None}
+        for robot in sorted(self._robots):
+            self._show_doing(robot, running.get(robot, "idle"))
+
+    def _draw_plan(self, state: PlanState) -> None:
         status = {n.id: n.status for n in state.nodes}
         depth = _depths(state.plan.nodes)
         rows: dict[int, int] = {}
@@ -168,18 +207,17 @@ class Drawing:
             ),
             rr.GraphEdges(edges=[(a, n.id) for n in nodes for a in n.after], graph_type="directed"),
         )
-        self._rec.log("metrics/replans", rr.Scalars(float(state.replans)))
-        labels = {n.id: self._node_label(n) for n in nodes}
-        running = {n.robot: labels[n.id] for n in state.nodes if n.status == "running" and n.robot is not None}
-        for robot in sorted(self._robots):
-            self._show_doing(robot, running.get(robot, "idle"))
 
     def _node_label(self, node: PlanNode) -> str:
         thing = self._objects.get(node.object or "")
         return f"{node.action} {thing.type if thing else node.room or node.object or ''}"
 
     def task(self, state: TaskState) -> None:
+        self._task = state
         self.at(state.stamp_s)
+        self._draw_task(state)
+
+    def _draw_task(self, state: TaskState) -> None:
         goals = "\n".join(f"- {'✔' if g.holds else '·'} {g.goal.text or g.goal.predicate}" for g in state.goals)
         text = (
             f"### {state.instruction}\n\n**{state.status}** {state.reason}\n\n{goals}\n\n"

@@ -1,6 +1,6 @@
-"""Draws what the site file knows: floors, walls, doors, fixed cameras."""
+"""Draws what does not change: floors, walls, fixed cameras, and the shape of a robot."""
 
-from math import cos, hypot, radians, sin
+from math import hypot, radians
 
 import numpy as np
 import rerun as rr
@@ -60,16 +60,41 @@ def _draw_walls(rec: rr.RecordingStream, site: Site) -> None:
 def _draw_camera(rec: rr.RecordingStream, camera: Camera) -> None:
     yaw, tilt = radians(camera.yaw_deg), radians(camera.tilt_down_deg)
     place_camera(rec, camera.id, camera.position_enu_m, yaw, tilt, static=True)
+    place_lens(rec, camera.id, camera.width_px, camera.height_px, camera.focal_px, plane_m=0.6)
+
+
+def place_lens(
+    rec: rr.RecordingStream, camera: str, width_px: int, height_px: int, focal_px: float, plane_m: float
+) -> None:
+    """What the camera's pictures show of the world; they hang at `plane_m` in front of it."""
     rec.log(
-        f"world/cameras/{camera.id}/picture",
+        f"world/cameras/{camera}/picture",
         rr.Pinhole(
-            resolution=[camera.width_px, camera.height_px],
-            focal_length=camera.focal_px,
+            resolution=[width_px, height_px],
+            focal_length=focal_px,
             camera_xyz=rr.ViewCoordinates.RDF,
-            image_plane_distance=0.6,
+            image_plane_distance=plane_m,
         ),
         static=True,
     )
+
+
+def draw_robot(rec: rr.RecordingStream, robot: str, rgb: tuple[int, int, int]) -> None:
+    """A body, a mast and a nose about the origin of the robot's own frame."""
+    path = f"world/robots/{robot}"
+    rec.log(
+        f"{path}/body",
+        rr.Boxes3D(
+            centers=[(0.0, 0.0, 0.28), (0.0, 0.0, 0.88)],
+            half_sizes=[(0.32, 0.17, 0.16), (0.03, 0.03, 0.42)],
+            colors=[rgb, (60, 60, 60)],
+            labels=[robot, ""],
+            fill_mode="solid",
+        ),
+        static=True,
+    )
+    nose = rr.Arrows3D(origins=[(0.0, 0.0, 0.45)], vectors=[(0.55, 0.0, 0.0)], colors=[rgb])
+    rec.log(f"{path}/heading", nose, static=True)
 
 
 def place_camera(
@@ -83,7 +108,3 @@ def place_camera(
 ) -> None:
     axes = np.array(camera_axes(yaw_rad, tilt_down_rad)).T
     rec.log(f"world/cameras/{camera}", rr.Transform3D(translation=position_enu_m, mat3x3=axes), static=static)
-
-
-def heading_arrow(yaw_rad: float, length_m: float) -> tuple[float, float, float]:
-    return (length_m * cos(yaw_rad), length_m * sin(yaw_rad), 0.0)

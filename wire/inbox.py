@@ -39,7 +39,8 @@ class Inbox:
                 self._changed.wait()
             self._letters[key] = letter
             self._bytes += _size(letter)
-            self._changed.notify_all()
+            if len(self._letters) == 1:
+                self._changed.notify_all()
 
     def take(self, timeout_s: float, limit: int | None = None) -> list[Letter]:
         """What has arrived, oldest first; at most `limit` letters. Waits at most this long for the first."""

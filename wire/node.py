@@ -67,7 +67,7 @@ class ZenohNode:
         self._exprs: dict[str, zenoh.KeyExpr] = {}
         self._ways: dict[tuple[str, str], tuple[Topic, zenoh.KeyExpr]] = {}
         self._unsent: list[tuple[zenoh.KeyExpr, bytes, bytes]] = []
-        self._nudge_expr: zenoh.KeyExpr | None = None
+        self._nudge_expr = ""
         self._declared: list[Any] = []
         self._presence_declared = False
         self._kept: list[Event] = []
@@ -129,12 +129,11 @@ class ZenohNode:
         if row.name not in CLOCK_TOPICS:
             self.shelf.add(self._session.declare_subscriber(expr, box, allowed_origin=_REMOTE), open)
         else:
-            self._nudge_expr = zenoh.KeyExpr(expr)
+            self._nudge_expr = expr
             self.shelf.add_clock(self._session.declare_subscriber(expr, box), open)
 
     def _nudge(self) -> None:
-        if self._nudge_expr is not None:
-            self._session.put(self._nudge_expr, b"", allowed_destination=zenoh.Locality.SESSION_LOCAL)
+        self._session.put(self._nudge_expr, b"", allowed_destination=zenoh.Locality.SESSION_LOCAL)
 
     def serve(self, service: str, id: str = "") -> None:
         row = service_for(service, self._role, serving=True)
@@ -174,19 +173,22 @@ class ZenohNode:
         row, expr = self._ways.get((topic, id)) or self._way(topic, id)
         if not isinstance(message, row.message):
             raise TypeError(f"{topic} carries {row.message.__name__}, not {type(message).__name__}")
-        payload = encode(message)
-        self._unsent.append((expr, payload, self._stamp()))
+        payload, stamp = encode(message), self._stamp()
         if not self._lockstep:
-            self.flush(block=row.delivery == "every")
-        elif topic in CLOCK_TOPICS or len(payload) > BIG_BYTES:
+            self._put(expr, payload, stamp, _BLOCK if row.delivery == "every" else _DROP)
+            return
+        self._unsent.append((expr, payload, stamp))
+        if topic in CLOCK_TOPICS or len(payload) > BIG_BYTES:
             self.flush()
 
-    def flush(self, block: bool = True) -> None:
-        """Send what was published. A picture dropped in one run and not in the next would make the two runs differ."""
+    def flush(self) -> None:
+        """Send what was published in lockstep: a picture dropped in one run and not in the next made the two differ."""
         unsent, self._unsent = self._unsent, []
-        control = _BLOCK if block else _DROP
         for expr, payload, stamp in unsent:
-            self._session.put(expr, payload, attachment=stamp, congestion_control=control, allowed_destination=_REMOTE)
+            self._put(expr, payload, stamp, _BLOCK)
+
+    def _put(self, expr: zenoh.KeyExpr, payload: bytes, stamp: bytes, control: zenoh.CongestionControl) -> None:
+        self._session.put(expr, payload, attachment=stamp, congestion_control=control, allowed_destination=_REMOTE)
 
     def ask(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> int:
         row = service_for(service, self._role, serving=False)
@@ -242,8 +244,7 @@ class ZenohNode:
 
     def _way(self, topic: str, id: str) -> tuple[Topic, zenoh.KeyExpr]:
         row = topic_for(topic, self._role, publishing=True)
-        way = self._ways[topic, id] = (row, self._expr(row.path, id))
-        return way
+        return self._ways.setdefault((topic, id), (row, self._expr(row.path, id)))
 
     def _expr(self, path: str, id: str) -> zenoh.KeyExpr:
         text = key(self._link.realm, path, id)

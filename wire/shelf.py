@@ -25,6 +25,7 @@ class Shelf:
         self._clock: tuple[Any, Open] | None = None
         self._boxes: list[tuple[Any, Open]] = []
         self._closed = threading.Event()
+        self._alarm = threading.Thread(target=self._ring, name="alarm", daemon=True)
 
     def add(self, box: Any, open: Open) -> None:
         """A subscription to fetch from."""
@@ -33,7 +34,7 @@ class Shelf:
     def add_clock(self, box: Any, open: Open) -> None:
         """The subscription to wait for."""
         self._clock = (box, open)
-        threading.Thread(target=self._ring, name="alarm", daemon=True).start()
+        self._alarm.start()
 
     def wait(self) -> list[Letter]:
         """The clock's next messages, as many as there are; none after a nudge."""
@@ -58,7 +59,10 @@ class Shelf:
         return letters
 
     def close(self) -> None:
+        """The last nudge is over when this returns."""
         self._closed.set()
+        if self._alarm.is_alive():
+            self._alarm.join(NUDGE_S)
 
     def _ring(self) -> None:
         while not self._closed.wait(NUDGE_S):

@@ -14,7 +14,7 @@ from wire.messages.truth import JudgeReply, JudgeRequest
 class Pace:
     times_real_time: float
     cpu_share: dict[str, float]
-    """Of each process: seconds of processor time for a simulated second. Hardly depends on what else the machine does."""
+    """Of each process: seconds of processor time for a simulated second. Depends far less than the pace on what else runs."""
 
 
 def pace(site_file: Path, warm_up_s: float, measure_s: float) -> Pace:

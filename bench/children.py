@@ -1,13 +1,14 @@
 """The other ends of the mesh measurements, each a process of its own: `python -m bench.children NAME --site FILE`."""
 
 import argparse
+import os
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 from wire.bus import Received
-from wire.link import client_config, link_for
+from wire.link import LEAN_RUNTIME, client_config, link_for
 from wire.messages.command import RobotReport
 from wire.messages.world import WorldDelta
 from wire.node import node_for, open_session
@@ -15,6 +16,7 @@ from wire.site import Site, load_site
 
 BURST = 200_000
 PING, PONG = "bench/ping", "bench/pong"
+TICK, DONE = "bench/tick", "bench/done"
 
 
 def ready() -> None:
@@ -28,6 +30,16 @@ def bare_echo(site: Site) -> None:
         session.declare_subscriber(f"{site.realm}/{PING}", lambda sample: pong.put(sample.payload.to_bytes()))
         ready()
         sys.stdin.read()
+
+
+def bare_follower(site: Site) -> None:
+    """Answers every tick of an empty clock, over a plain session, one thread, nothing else: the floor under lockstep."""
+    with open_session(client_config(link_for(site, "dog-1")), LEAN_RUNTIME) as session:
+        done = session.declare_publisher(f"{site.realm}/{DONE}/{os.getpid()}")
+        ticks = session.declare_subscriber(f"{site.realm}/{TICK}")
+        ready()
+        for sample in ticks:
+            done.put(sample.payload)
 
 
 def echo(site: Site) -> None:
@@ -71,7 +83,9 @@ def report(seq: int) -> RobotReport:
     )  # fmt: skip
 
 
-CHILDREN: dict[str, Callable[[Site], None]] = {"bare_echo": bare_echo, "echo": echo, "burst": burst, "idle": idle}
+CHILDREN: dict[str, Callable[[Site], None]] = {
+    "bare_echo": bare_echo, "bare_follower": bare_follower, "echo": echo, "burst": burst, "idle": idle,
+}  # fmt: skip
 
 
 def main() -> None:

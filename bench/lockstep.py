@@ -1,18 +1,30 @@
 """How fast simulated time runs through the mesh: the simulator without cameras, six robots without vision at 20 Hz.
 
+Beside it, before and after in the same run, the same exchange of ticks with as many followers that do nothing, through
+the same router: what is over that is the work of this mesh.
+
 `python -m bench.lockstep --json`
 """
 
 import argparse
 import json
+import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from bench.pace import times_real_time
+from bench.children import DONE, TICK
+from bench.pace import pace
+from bench.stage import stage
 from console.places import free_port, generate_home
+from wire.clock import followers_of
+from wire.link import LEAN_RUNTIME, client_config, link_for
+from wire.node import open_session
+from wire.site import load_site
 
 MEASURE_S = 10.0
+STEP_S = 0.05
+BARE_TICKS = 1000
 DEVICES = 6
 
 
@@ -23,8 +35,39 @@ def measure() -> dict[str, Any]:
             "--robots", str(DEVICES), "--no-cctv",
         )  # fmt: skip
         site_file.write_text(without_vision(site_file.read_text()))
-        factor = times_real_time(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
-    return {"times_real_time": factor, "devices": DEVICES}
+        followers = len(followers_of(load_site(site_file)))
+        bare_ms = bare_tick_ms(followers)
+        mesh = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
+        bare_ms = (bare_ms + bare_tick_ms(followers)) / 2.0
+    tick_ms = 1000.0 * STEP_S / mesh.times_real_time
+    cpu_ms = {id: round(1000.0 * STEP_S * share, 3) for id, share in sorted(mesh.cpu_share.items())}
+    return {
+        "times_real_time": mesh.times_real_time,
+        "devices": DEVICES,
+        "followers": followers,
+        "tick_ms": tick_ms,
+        "bare_tick_ms": bare_ms,
+        "over_bare": tick_ms / bare_ms,
+        "cpu_ms_per_tick": cpu_ms,
+        "cpu_ms_per_tick_sum": round(sum(cpu_ms.values()), 3),
+    }
+
+
+def bare_tick_ms(followers: int) -> float:
+    """Mean time of one empty tick: told to all, answered by all."""
+    with stage() as place:
+        for _ in range(followers):
+            place.child("bare_follower")
+        with open_session(client_config(link_for(place.site, "hub")), LEAN_RUNTIME) as session:
+            answers = session.declare_subscriber(f"{place.site.realm}/{DONE}/*")
+            ticks = session.declare_publisher(f"{place.site.realm}/{TICK}")
+            time.sleep(0.5)  # declarations travel on their own
+            began = time.perf_counter()
+            for _ in range(BARE_TICKS):
+                ticks.put(b"x" * 32)
+                for _ in range(followers):
+                    answers.recv()
+            return 1000.0 * (time.perf_counter() - began) / BARE_TICKS
 
 
 def without_vision(toml: str) -> str:

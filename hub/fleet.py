@@ -13,6 +13,8 @@ _LOST_S = 3.0
 _BODY_M = 0.45
 _BODY_HEIGHT_M = 0.55
 _MEET_S = 4.0
+_AGAIN_S = 1.0
+"""A robot of which nothing changes is shown again after this."""
 
 
 class Robot:
@@ -31,6 +33,7 @@ class Robot:
         "shown",
         "stamp_s",
         "status",
+        "told",
         "travelled_m",
         "yaw_rad",
     )
@@ -50,10 +53,20 @@ class Robot:
         self.action_steps = 0
         self.stamp_s = -1.0
         self.shown: RobotState | None = None
+        self.told: tuple[object, ...] | None = None
+        """The facts when somebody last looked for changes."""
 
     @property
     def xy(self) -> Vec2:
         return (self.position_m[0], self.position_m[1])
+
+    @property
+    def facts(self) -> tuple[object, ...]:
+        """All that a reader is told, apart from when it was said."""
+        return (
+            self.position_m, self.yaw_rad, self.status, self.inventory, self.goal_id, self.path_m, self.travelled_m,
+            self.action_steps, self.card,
+        )  # fmt: skip
 
     @property
     def skills(self) -> tuple[str, ...]:
@@ -132,7 +145,10 @@ class Fleet:
         """Robots that a reader would see differently than at the last call."""
         changed = []
         for robot in self._ordered():
-            state = self._state(robot)
+            facts = robot.facts
+            if robot.shown is not None and facts == robot.told and robot.stamp_s - robot.shown.stamp_s <= _AGAIN_S:
+                continue
+            robot.told, state = facts, self._state(robot)
             if robot.shown is None or _differs(robot.shown, state):
                 robot.shown = state
                 changed.append(state)
@@ -160,4 +176,4 @@ class Fleet:
 
 
 def _differs(a: RobotState, b: RobotState) -> bool:
-    return a.model_copy(update={"stamp_s": b.stamp_s}) != b or b.stamp_s - a.stamp_s > 1.0
+    return a.model_copy(update={"stamp_s": b.stamp_s}) != b or b.stamp_s - a.stamp_s > _AGAIN_S

@@ -1,7 +1,8 @@
 """A sweep of ranges around a robot: 120 beams at 0.25 m above the floor.
 
-Beams are level and boxes upright, so each box is a rectangle in the plane of the sweep; all beams meet all rectangles
-at once. That takes a seventh of the time of as many rays through the physics engine, with the same ranges.
+Beams are level and boxes upright, so each box is a rectangle in the plane of the sweep, and only the beams between its
+outer bearings can meet it; all of these pairs are worked out at once. The ranges are those of as many rays through the
+physics engine, in a fraction of the time.
 """
 
 from math import pi
@@ -19,6 +20,7 @@ ANGLE_MIN_RAD = -pi
 ANGLE_STEP_RAD = 2.0 * pi / BEAMS
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 
 class Lidar:
@@ -28,15 +30,13 @@ class Lidar:
         self._physics = physics
         self._robot = robot
         self._standing = _rows(physics.standing)
-        self._angles = ANGLE_MIN_RAD + ANGLE_STEP_RAD * np.arange(BEAMS)
+        self._angles: Array = np.asarray(ANGLE_MIN_RAD + ANGLE_STEP_RAD * np.arange(BEAMS), np.float64)
 
     def sweep(self) -> tuple[float, ...]:
         """Ranges in metres, beam k at ANGLE_MIN + k * ANGLE_STEP from straight ahead; 0 where nothing was hit."""
         motion = self._physics.robots[self._robot].motion()
         rows = np.concatenate((self._standing, _rows(self._physics.moving(self._robot))))
-        rows = rows[_within_range(rows, *motion.position_m)]
-        angles = self._angles + motion.yaw_rad
-        ranges = _first_hits(rows, *motion.position_m, np.cos(angles), np.sin(angles))
+        ranges = _first_hits(rows, *motion.position_m, motion.yaw_rad, np.asarray(self._angles + motion.yaw_rad))
         return tuple(np.where(ranges <= RANGE_M, np.round(ranges, 3), 0.0).tolist())
 
 
@@ -48,24 +48,35 @@ def _rows(boxes: list[Box]) -> Array:
     ).reshape(-1, 6)
 
 
-def _within_range(rows: Array, x: float, y: float) -> NDArray[np.bool_]:
-    away = np.hypot(rows[:, 0] - x, rows[:, 1] - y) - np.hypot(rows[:, 2], rows[:, 3])
-    return np.asarray(away < RANGE_M)
-
-
-def _first_hits(rows: Array, x: float, y: float, ahead: Array, aside: Array) -> Array:
+def _first_hits(rows: Array, x: float, y: float, yaw_rad: float, angles_rad: Array) -> Array:
     """Distance along each beam (slab test in every rectangle's own frame); infinite where nothing is hit."""
-    if not len(rows):
-        return np.full(BEAMS, np.inf)
-    half_x, half_y, c, s = rows[:, 2], rows[:, 3], rows[:, 4], rows[:, 5]
     dx, dy = x - rows[:, 0], y - rows[:, 1]
+    box, beam = _pairs(np.hypot(dx, dy), np.arctan2(-dy, -dx) - yaw_rad, np.hypot(rows[:, 2], rows[:, 3]))
+    half_x, half_y, c, s = rows[box, 2:].T
+    dx, dy = dx[box], dy[box]
+    ahead, aside = np.cos(angles_rad)[beam], np.sin(angles_rad)[beam]
     from_x, from_y = c * dx + s * dy, c * dy - s * dx
-    over_x = 1.0 / _never_zero(ahead[:, None] * c + aside[:, None] * s)
-    over_y = 1.0 / _never_zero(aside[:, None] * c - ahead[:, None] * s)
-    near_x, far_x = -from_x * over_x - half_x * np.abs(over_x), -from_x * over_x + half_x * np.abs(over_x)
-    near_y, far_y = -from_y * over_y - half_y * np.abs(over_y), -from_y * over_y + half_y * np.abs(over_y)
-    enter, leave = np.maximum(near_x, near_y), np.minimum(far_x, far_y)
-    return np.asarray(np.where((enter <= leave) & (enter > 0.0), enter, np.inf).min(axis=1))
+    over_x = 1.0 / _never_zero(ahead * c + aside * s)
+    over_y = 1.0 / _never_zero(aside * c - ahead * s)
+    mid_x, mid_y = -from_x * over_x, -from_y * over_y
+    deep_x, deep_y = half_x * np.abs(over_x), half_y * np.abs(over_y)
+    enter, leave = np.maximum(mid_x - deep_x, mid_y - deep_y), np.minimum(mid_x + deep_x, mid_y + deep_y)
+    hit = (enter <= leave) & (enter > 0.0)
+    ranges = np.full(BEAMS, np.inf)
+    np.minimum.at(ranges, beam[hit], enter[hit])
+    return ranges
+
+
+def _pairs(away_m: Array, bearing_rad: Array, radius_m: Array) -> tuple[Index, Index]:
+    """(box, beam) for every beam that can meet a box within range, by the circle around the box."""
+    near = np.flatnonzero(away_m - radius_m < RANGE_M)
+    around = radius_m[near] / np.maximum(away_m[near], 1e-9)
+    spread_rad = np.where(around < 1.0, np.arcsin(np.minimum(around, 1.0)) + 1e-6, pi)
+    first = np.ceil((bearing_rad[near] - spread_rad - ANGLE_MIN_RAD) / ANGLE_STEP_RAD).astype(np.int64)
+    last = np.floor((bearing_rad[near] + spread_rad - ANGLE_MIN_RAD) / ANGLE_STEP_RAD).astype(np.int64)
+    count = np.minimum(last - first + 1, BEAMS)
+    within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    return np.repeat(near, count), (np.repeat(first, count) + within) % BEAMS
 
 
 def _never_zero(direction: Array) -> Array:

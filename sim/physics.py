@@ -97,6 +97,7 @@ class Physics:
             self.bullet.stepSimulation()
             self.step_count += 1
         for rover in rovers:
+            rover.moved_on()
             rover.tilt(steps * STEP_S)
         self._follow_loose()
 

@@ -55,6 +55,7 @@ class Rover:
         self.wish = Wish()
         self.tilt_down_rad = self.wish.tilt_down_rad
         self._bullet = bullet
+        self._motion: Motion | None = None
 
     def push(self, step_s: float, steps: int, gravity_mps2: float) -> None:
         """Before some physics steps: move the velocity towards the wish, as far as the accelerations allow."""
@@ -90,11 +91,18 @@ class Rover:
         self.tilt_down_rad += max(-most, min(most, self.wish.tilt_down_rad - self.tilt_down_rad))
 
     def motion(self) -> Motion:
-        position, turn = self._bullet.getBasePositionAndOrientation(self.body)
-        linear, angular = self._bullet.getBaseVelocity(self.body)
-        return Motion(
-            (position[0], position[1]), 2.0 * atan2(turn[2], turn[3]), hypot(linear[0], linear[1]), angular[2]
-        )
+        """As it is since the physics last moved on: many ask, once between two steps it is looked up."""
+        if self._motion is None:
+            position, turn = self._bullet.getBasePositionAndOrientation(self.body)
+            linear, angular = self._bullet.getBaseVelocity(self.body)
+            self._motion = Motion(
+                (position[0], position[1]), 2.0 * atan2(turn[2], turn[3]), hypot(linear[0], linear[1]), angular[2]
+            )
+        return self._motion
+
+    def moved_on(self) -> None:
+        """The physics has taken steps."""
+        self._motion = None
 
     def box(self) -> Box:
         """The body without its mast."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 from wire.bus import Core, Event, Received
 from wire.clock import Pace, Roll, WallClock, boot_id
-from wire.codec import M, WireError, decode
+from wire.codec import WireError, decode
 from wire.letter import Kind, Letter
 from wire.messages.clock import Tick, TickDone
 from wire.node import ZenohNode
@@ -16,7 +16,7 @@ log = logging.getLogger("clock")
 
 Stopping = Callable[[], bool]
 WAIT_S = 0.2
-"""How long a signal to stop may go unnoticed."""
+"""How long a signal to stop may go unnoticed before the first tick and between two."""
 GATHER_S = 30.0
 """How long the first tick waits for processes that should be there."""
 HANG_S = 5.0
@@ -58,9 +58,10 @@ def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping
     core.start(node)
     node.announce()
     while not stopping():
-        tick = _newest_tick(node, _sort_in(node, "tick", WAIT_S))
+        tick = _newest_tick(node, node.shelf.wait())
         if tick is None:
             continue
+        _pick_up(node)
         node.tick, node.now_s = tick.tick, tick.now_s
         node.boot_id = node.boot_id or boot_id(tick.now_s)
         core.step(tick.now_s, node.mailbox.at_tick(tick.tick, tick.now_s))
@@ -91,43 +92,29 @@ def drive_owner(
         _keep_pace(node, roll, pace, tick * step_s)
 
 
-def _sort_in(node: ZenohNode, control_topic: str, timeout_s: float, at_least: int = 1) -> list[Letter]:
-    """Pick up the post: the letters of one topic and of presence at once, all others when they are due."""
-    control, others = [], []
-    for letter in node.inbox.take(timeout_s, at_least=at_least):
-        if letter.kind is Kind.MESSAGE and letter.name == control_topic:
-            control.append(letter)
-            continue
-        if letter.kind is Kind.PRESENCE:
-            control.append(letter)
-        if letter.kind is not Kind.PRESENCE or node.watching:
-            others.append(letter)
-    node.mailbox.hold(others)
-    return control
+def _pick_up(node: ZenohNode, timeout_s: float = 0.0) -> list[Letter]:
+    """Hold all post until it is due. What came of presence is returned, too."""
+    letters = node.inbox.take(timeout_s)
+    presence = [letter for letter in letters if letter.kind is Kind.PRESENCE]
+    node.mailbox.hold(letter for letter in letters if node.watching or letter.kind is not Kind.PRESENCE)
+    node.mailbox.hold(node.shelf.fetch())
+    return presence
 
 
 def _newest_tick(node: ZenohNode, letters: Iterable[Letter]) -> Tick | None:
     """A follower that was away skips the ticks that went on without it."""
-    ticks = [tick for letter in letters if (tick := _read(node, letter, Tick)) is not None]
-    return ticks[-1] if ticks else None
+    newest = None
+    for letter in letters:
+        try:
+            newest = decode(Tick, letter.payload, letter.name)
+        except WireError as error:
+            node.mailbox.warn(str(error))
+    return newest
 
 
-def _call_roll(node: ZenohNode, roll: Roll, timeout_s: float) -> None:
-    for letter in _sort_in(node, "tick_done", timeout_s, at_least=max(1, len(roll.waiting))):
-        if letter.kind is Kind.PRESENCE:
-            roll.presence(letter.id, letter.alive)
-        elif (done := _read(node, letter, TickDone)) is not None:
-            roll.done(letter.id, done.tick)
-
-
-def _read(node: ZenohNode, letter: Letter, message_type: type[M]) -> M | None:
-    if letter.kind is not Kind.MESSAGE:
-        return None
-    try:
-        return decode(message_type, letter.payload, letter.name)
-    except WireError as error:
-        node.mailbox.warn(str(error))
-        return None
+def _call_roll(node: ZenohNode, roll: Roll, timeout_s: float = 0.0) -> None:
+    for letter in _pick_up(node, timeout_s):
+        roll.presence(letter.id, letter.alive)
 
 
 def _gather(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
@@ -143,11 +130,17 @@ def _gather(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
 def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
     began_s, warned = time.monotonic(), False
     while (roll.waiting or roll.deserted) and not stopping():
-        _call_roll(node, roll, WAIT_S)
+        answers = node.shelf.wait()
+        for letter in answers:
+            roll.done(letter.id, letter.tick)
+        if answers:
+            continue
+        _call_roll(node, roll)
         if not warned and time.monotonic() - began_s > HANG_S:
             warned = True
             whom = ", ".join(roll.waiting) or "any follower to come back"
             log.warning("time stands still: waiting for %s since %.0f s", whom, HANG_S)
+    _call_roll(node, roll)
 
 
 def _keep_pace(node: ZenohNode, roll: Roll, pace: Pace, now_s: float) -> None:

@@ -26,7 +26,6 @@ class Inbox:
         self._letters: dict[object, Letter] = {}
         self._bytes = 0
         self._count = 0
-        self._awaited = 1
         self._closed = False
 
     def put(self, letter: Letter) -> None:
@@ -40,17 +39,14 @@ class Inbox:
                 self._changed.wait()
             self._letters[key] = letter
             self._bytes += _size(letter)
-            if len(self._letters) == self._awaited:
+            if len(self._letters) == 1:
                 self._changed.notify_all()
 
-    def take(self, timeout_s: float, limit: int | None = None, at_least: int = 1) -> list[Letter]:
-        """What has arrived, oldest first; at most `limit` letters. Waits for `at_least` letters, and no longer than
-        this: who needs six answers need not be woken six times.
-        """
+    def take(self, timeout_s: float, limit: int | None = None) -> list[Letter]:
+        """What has arrived, oldest first; at most `limit` letters. Waits at most this long for the first."""
         deadline_s = time.monotonic() + timeout_s
         with self._changed:
-            self._awaited = at_least
-            while len(self._letters) < at_least and not self._closed:
+            while not self._letters and not self._closed:
                 rest_s = deadline_s - time.monotonic()
                 if rest_s <= 0.0 or not self._changed.wait(rest_s):
                     break

@@ -4,6 +4,7 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 NO_TICK = -1
 """The tick of a sender that does not live in lockstep."""
@@ -50,3 +51,26 @@ def read_stamp(stamp: bytes) -> tuple[int, int, str]:
         raise ValueError("not the stamp of a node")
     tick, seq = _HEAD.unpack_from(stamp)
     return tick, seq, stamp[_HEAD.size :].decode()
+
+
+def stamp_of(attachment: Any) -> tuple[int, int, str] | None:
+    """The stamp in Zenoh's attachment; None when there is none."""
+    if attachment is None or len(attachment) > 64:
+        return None
+    try:
+        return read_stamp(attachment.to_bytes())
+    except ValueError:
+        return None
+
+
+def reply_letter(service: str, id: str, number: int, reply: Any) -> Letter:
+    """Zenoh's reply to question `number`."""
+    letter = Letter(Kind.REPLY, service, id, ask=number)
+    if reply.ok is not None:
+        stamp = stamp_of(reply.ok.attachment)
+        if stamp is not None:
+            letter.tick, letter.seq, letter.sender = stamp
+        letter.payload = reply.ok.payload.to_bytes()
+    elif reply.err is not None:
+        letter.error = reply.err.payload.to_string() or "refused"
+    return letter

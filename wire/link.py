@@ -17,6 +17,9 @@ SOCKET_BYTES = 262_144
 """A sender that waits for a full socket is woken when a third of it is free. With the megabytes that the kernel gives by
 itself, that takes a slow reader of small messages longer than a lease, and the link is taken for dead."""
 MAX_MESSAGE_BYTES = 16_000_000
+LEAN_RUNTIME = "(acc: (handover: tx), app: (handover: tx), net: (handover: tx))"
+"""Zenoh's rare tasks in the thread that sends, where no callback of this program can hold it up: less switching between
+threads. Only what is received keeps threads of its own, so that a blocked reader never stops the sending."""
 CREDENTIALS_VARIABLE = "R2X_CREDENTIALS"
 
 

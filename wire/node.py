@@ -1,6 +1,7 @@
 """A process's single session with the mesh over Zenoh. Callbacks only file letters; the loop opens them."""
 
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -13,22 +14,31 @@ from wire.bus import Event, Reply
 from wire.codec import encode, max_bytes
 from wire.inbox import Inbox
 from wire.keys import PRESENCE_PATH, Role, Service, Topic
-from wire.letter import NO_TICK, Kind, Letter, read_stamp, write_stamp
-from wire.link import Link, MeshError, client_config, link_for
+from wire.letter import NO_TICK, Kind, Letter, reply_letter, stamp_of, write_stamp
+from wire.link import LEAN_RUNTIME, Link, MeshError, client_config, link_for
 from wire.mailbox import Mailbox
 from wire.model import Message
 from wire.paths import id_in, key, pattern, service_for, topic_for
+from wire.shelf import Shelf
 from wire.site import Site
 
 LETTERS_AT_ONCE = 100
 """A step handles no more than this, so that a flood leaves time for what is due."""
 SWITCH_S = 0.0005
 """A busy loop lets a callback in this often; at Python's own 5 ms the router would think that nobody reads."""
+FETCHED_AT_ONCE = 65_536
+"""So many messages of one subscription may lie ready until they are fetched; then the link is held back."""
+BIG_BYTES = 20_000
+CLOCK_TOPICS = frozenset(("tick", "tick_done"))
+"""Their messages wake the loop in lockstep; all others lie ready until then."""
 _REMOTE = zenoh.Locality.REMOTE
+_BLOCK, _DROP = zenoh.CongestionControl.BLOCK, zenoh.CongestionControl.DROP
 
 
-def open_session(config: dict[str, Any]) -> zenoh.Session:
-    """The one place where sessions are opened."""
+def open_session(config: dict[str, Any], runtime: str = "") -> zenoh.Session:
+    """The one place where sessions are opened; `runtime` is for the first of a process."""
+    if runtime:
+        os.environ.setdefault("ZENOH_RUNTIME", runtime)
     zenoh.try_init_log_from_env()  # silent unless RUST_LOG is set
     try:
         return zenoh.open(zenoh.Config.from_json5(json.dumps(config)))
@@ -40,8 +50,9 @@ class ZenohNode:
     """`wire.bus.Node` over Zenoh, as a context manager: constructed offline, connected by `with`.
 
     In lockstep the tick is stamped on everything sent, nothing is dropped, and unanswered questions run out by the
-    mesh's clock, which whoever drives the node writes to `tick` and `now_s`. `keep_all` has even a slow reader see
-    every message of every topic.
+    mesh's clock, which whoever drives the node writes to `tick` and `now_s`. There one tick is one waking and one
+    packet: what is published leaves together with the tick or the answer to it, and what comes is left with Zenoh until
+    it is fetched. `keep_all` has even a slow reader see every message of every topic.
     """
 
     def __init__(
@@ -54,6 +65,9 @@ class ZenohNode:
         self._lockstep = lockstep
         self._seq = 0
         self._exprs: dict[str, zenoh.KeyExpr] = {}
+        self._ways: dict[tuple[str, str], tuple[Topic, zenoh.KeyExpr]] = {}
+        self._unsent: list[tuple[zenoh.KeyExpr, bytes, bytes]] = []
+        self._nudge_expr = ""
         self._declared: list[Any] = []
         self._presence_declared = False
         self._kept: list[Event] = []
@@ -63,13 +77,14 @@ class ZenohNode:
         """Written, as the two that follow, by whoever drives this node."""
         self.tick = NO_TICK
         self.now_s = 0.0
+        self.shelf = Shelf(self._nudge)
         self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)
         self.mailbox = Mailbox(id, owner)
 
     def __enter__(self) -> Self:
         sys.setswitchinterval(SWITCH_S)
         try:
-            self._session = open_session(client_config(self._link))
+            self._session = open_session(client_config(self._link), LEAN_RUNTIME if self._lockstep else "")
         except MeshError as error:
             who = f" as {self._link.user}" if self._link.user else ""
             raise MeshError(
@@ -79,6 +94,8 @@ class ZenohNode:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        self.flush()
+        self.shelf.close()
         self.inbox.close()
         self._session.close()
 
@@ -93,14 +110,32 @@ class ZenohNode:
     def subscribe(self, topic: str, id: str | None = None) -> None:
         row = topic_for(topic, self._role, publishing=False)
         limit = max_bytes(row.message)
+        expr = pattern(self._link.realm, row.path, id)
+        if self._lockstep:
+            self._shelve(row, limit, expr)
+            return
 
         def on_sample(sample: zenoh.Sample) -> None:
-            if sample.kind == zenoh.SampleKind.PUT:
-                self._file_message(row, limit, sample)
+            letter = self._letter(row, limit, sample)
+            if letter is not None:
+                self.inbox.put(letter)
 
-        expr = pattern(self._link.realm, row.path, id)
         callback = zenoh.handlers.Callback(on_sample, indirect=False)
         self._declared.append(self._session.declare_subscriber(expr, callback, allowed_origin=_REMOTE))
+
+    def _shelve(self, row: Topic, limit: int, expr: str) -> None:
+        def open(sample: zenoh.Sample) -> Letter | None:
+            return self._letter(row, limit, sample)
+
+        box: Any = zenoh.handlers.FifoChannel(FETCHED_AT_ONCE)
+        if row.name not in CLOCK_TOPICS:
+            self.shelf.add(self._session.declare_subscriber(expr, box, allowed_origin=_REMOTE), open)
+        else:
+            self._nudge_expr = expr
+            self.shelf.add_clock(self._session.declare_subscriber(expr, box), open)
+
+    def _nudge(self) -> None:
+        self._session.put(self._nudge_expr, b"", allowed_destination=zenoh.Locality.SESSION_LOCAL)
 
     def serve(self, service: str, id: str = "") -> None:
         row = service_for(service, self._role, serving=True)
@@ -133,21 +168,29 @@ class ZenohNode:
 
     def announce(self) -> None:
         """Tell the mesh that this process is there. Call when everything is subscribed and served."""
+        self.flush()
         self._declared.append(self._session.liveliness().declare_token(self._presence_key))
 
     def publish(self, topic: str, message: Message, id: str = "") -> None:
-        row = topic_for(topic, self._role, publishing=True)
+        row, expr = self._ways.get((topic, id)) or self._way(topic, id)
         if not isinstance(message, row.message):
             raise TypeError(f"{topic} carries {row.message.__name__}, not {type(message).__name__}")
-        # a picture that was dropped in one run and not in the next would make the two runs differ
-        block = self._lockstep or row.delivery == "every"
-        self._session.put(
-            self._expr(row.path, id),
-            encode(message),
-            attachment=self._stamp(),
-            congestion_control=zenoh.CongestionControl.BLOCK if block else zenoh.CongestionControl.DROP,
-            allowed_destination=_REMOTE,
-        )
+        payload, stamp = encode(message), self._stamp()
+        if not self._lockstep:
+            self._put(expr, payload, stamp, _BLOCK if row.delivery == "every" else _DROP)
+            return
+        self._unsent.append((expr, payload, stamp))
+        if topic in CLOCK_TOPICS or len(payload) > BIG_BYTES:
+            self.flush()
+
+    def flush(self) -> None:
+        """Send what was published in lockstep: a picture dropped in one run and not in the next made the two differ."""
+        unsent, self._unsent = self._unsent, []
+        for expr, payload, stamp in unsent:
+            self._put(expr, payload, stamp, _BLOCK)
+
+    def _put(self, expr: zenoh.KeyExpr, payload: bytes, stamp: bytes, control: zenoh.CongestionControl) -> None:
+        self._session.put(expr, payload, attachment=stamp, congestion_control=control, allowed_destination=_REMOTE)
 
     def ask(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> int:
         row = service_for(service, self._role, serving=False)
@@ -156,9 +199,10 @@ class ZenohNode:
         expr = self._expr(row.path, id)
         timeout_s = row.timeout_s if timeout_s is None else timeout_s
         number = self.mailbox.ask(service, id, self._now_s(), timeout_s)
+        self.flush()
 
         def on_reply(reply: zenoh.Reply) -> None:
-            self._file_reply(service, id, number, reply)
+            self.inbox.put(reply_letter(service, id, number, reply))
 
         def on_end() -> None:
             if not self._lockstep:
@@ -200,6 +244,10 @@ class ZenohNode:
     def _now_s(self) -> float:
         return self.now_s if self._lockstep else time.monotonic()
 
+    def _way(self, topic: str, id: str) -> tuple[Topic, zenoh.KeyExpr]:
+        row = topic_for(topic, self._role, publishing=True)
+        return self._ways.setdefault((topic, id), (row, self._expr(row.path, id)))
+
     def _expr(self, path: str, id: str) -> zenoh.KeyExpr:
         text = key(self._link.realm, path, id)
         if text not in self._exprs:
@@ -210,20 +258,24 @@ class ZenohNode:
         self._seq += 1
         return write_stamp(self.tick, self._seq, self._id)
 
-    def _file_message(self, row: Topic, limit: int, sample: zenoh.Sample) -> None:
+    def _letter(self, row: Topic, limit: int, sample: zenoh.Sample) -> Letter | None:
+        if sample.kind != zenoh.SampleKind.PUT:
+            return None
+        if self._lockstep and sample.attachment is None:
+            return None  # a nudge
         full_key = str(sample.key_expr)
         id = id_in(self._link.realm, row.path, full_key)
-        stamp = _read_stamp(sample.attachment)
+        stamp = stamp_of(sample.attachment)
         size = len(sample.payload)
         if id is None or stamp is None or size > limit:
             fault = "no single key" if id is None else "no stamp" if stamp is None else f"{size} bytes are too many"
             self.mailbox.warn(f"{full_key[:80]}: {fault}")
-            return
+            return None
         tick, seq, sender = stamp
-        self.inbox.put(Letter(Kind.MESSAGE, row.name, id, sender, tick, seq, sample.payload.to_bytes()))
+        return Letter(Kind.MESSAGE, row.name, id, sender, tick, seq, sample.payload.to_bytes())
 
     def _file_request(self, row: Service, id: str, query: zenoh.Query) -> None:
-        stamp = _read_stamp(query.attachment)
+        stamp = stamp_of(query.attachment)
         payload = b"" if query.payload is None else query.payload.to_bytes()
         if stamp is None or len(payload) > max_bytes(row.request):
             self.mailbox.warn(f"{row.name}: a request without stamp or too big")
@@ -233,6 +285,7 @@ class ZenohNode:
         expr = self._expr(row.path, id)
 
         def answer(reply: bytes) -> None:
+            self.flush()
             query.reply(expr, reply, attachment=self._stamp())
             query.drop()
 
@@ -243,27 +296,7 @@ class ZenohNode:
         tick, seq, sender = stamp
         self.inbox.put(Letter(Kind.REQUEST, row.name, id, sender, tick, seq, payload, answer=answer, refuse=refuse))
 
-    def _file_reply(self, service: str, id: str, number: int, reply: zenoh.Reply) -> None:
-        letter = Letter(Kind.REPLY, service, id, ask=number)
-        if reply.ok is not None:
-            stamp = _read_stamp(reply.ok.attachment)
-            if stamp is not None:
-                letter.tick, letter.seq, letter.sender = stamp
-            letter.payload = reply.ok.payload.to_bytes()
-        elif reply.err is not None:
-            letter.error = reply.err.payload.to_string() or "refused"
-        self.inbox.put(letter)
-
 
 def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0, credentials: Path | None = None) -> ZenohNode:
     """A node that follows no ticks: for tools, views and evaluators."""
     return ZenohNode(link_for(site, id, timeout_s, credentials), id, role)
-
-
-def _read_stamp(attachment: zenoh.ZBytes | None) -> tuple[int, int, str] | None:
-    if attachment is None or len(attachment) > 64:
-        return None
-    try:
-        return read_stamp(attachment.to_bytes())
-    except ValueError:
-        return None

@@ -160,18 +160,25 @@ class FloorMap:
         return values
 
     def _indices(self, points_m: NDArray[np.floating[Any]]) -> tuple[NDArray[np.int64], NDArray[np.int64], Mask]:
-        index = np.floor((points_m - self._origin) / CELL_M).astype(np.int64)
+        index = self._whole_cells(points_m - self._origin)
         columns, rows = index[:, 0], index[:, 1]
         known = (columns >= 0) & (columns < self.columns) & (rows >= 0) & (rows < self.rows)
         return np.clip(columns, 0, self.columns - 1), np.clip(rows, 0, self.rows - 1), known
 
+    def _whole_cells(self, offset_m: NDArray[np.floating[Any]]) -> NDArray[np.int64]:
+        return np.asarray(np.floor(offset_m / CELL_M), np.int64)
+
     def _pass(self, origin: NDArray[np.float64], ray: NDArray[np.float64], free_m: NDArray[np.float64]) -> None:
         steps = np.arange(0.0, float(free_m.max(initial=0.0)), CELL_M)
-        points = origin + ray[:, None, :] * steps[None, :, None]
-        columns, rows, known = self._indices(points[steps[None, :] < free_m[:, None]])
-        passed = np.zeros(self._weight.shape, np.bool_)
-        passed[rows[known], columns[known]] = True
-        self._weight[passed] = np.maximum(self._weight[passed] + MISS, 0.0)
+        free = steps < free_m[:, None]
+        columns = self._whole_cells((origin[0] + ray[:, :1] * steps)[free] - self._origin[0])
+        rows = self._whole_cells((origin[1] + ray[:, 1:] * steps)[free] - self._origin[1])
+        known = (columns >= 0) & (columns < self.columns) & (rows >= 0) & (rows < self.rows)
+        passed = np.zeros(self._weight.size, np.bool_)
+        passed[(rows * self.columns + columns)[known]] = True
+        weight = self._weight.reshape(-1)
+        weakened = np.flatnonzero(passed & (weight > 0.0))
+        weight[weakened] = np.maximum(weight[weakened] + MISS, 0.0)
         self._changed()
 
     def _changed(self) -> None:

@@ -4,6 +4,7 @@ import json
 import os
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -279,8 +280,7 @@ class ZenohNode:
         payload = b"" if query.payload is None else query.payload.to_bytes()
         if stamp is None or len(payload) > max_bytes(row.request):
             self.mailbox.warn(f"{row.name}: a request without stamp or too big")
-            query.reply_err(f"{row.name}: not a request of this mesh".encode())
-            query.drop()
+            _refuse(query, f"{row.name}: not a request of this mesh")
             return
         expr = self._expr(row.path, id)
 
@@ -289,12 +289,14 @@ class ZenohNode:
             query.reply(expr, reply, attachment=self._stamp())
             query.drop()
 
-        def refuse(text: str) -> None:
-            query.reply_err(text.encode())
-            query.drop()
-
         tick, seq, sender = stamp
+        refuse = partial(_refuse, query)
         self.inbox.put(Letter(Kind.REQUEST, row.name, id, sender, tick, seq, payload, answer=answer, refuse=refuse))
+
+
+def _refuse(query: zenoh.Query, text: str) -> None:
+    query.reply_err(text.encode())
+    query.drop()
 
 
 def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0, credentials: Path | None = None) -> ZenohNode:

@@ -60,8 +60,7 @@ class ZenohNode:
         self, link: Link, id: str, role: Role, lockstep: bool = False, owner: str = "", keep_all: bool = False
     ) -> None:
         self._presence_key = key(link.realm, PRESENCE_PATH, id)
-        self._link = link
-        self._id = id
+        self._link, self._id = link, id
         self._role: Role = role
         self._lockstep = lockstep
         self._seq = 0
@@ -76,8 +75,7 @@ class ZenohNode:
         """The core asked for presence."""
         self.boot_id = ""
         """Written, as the two that follow, by whoever drives this node."""
-        self.tick = NO_TICK
-        self.now_s = 0.0
+        self.tick, self.now_s = NO_TICK, 0.0
         self.shelf = Shelf(self._nudge)
         self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)
         self.mailbox = Mailbox(id, owner)
@@ -260,10 +258,8 @@ class ZenohNode:
         return write_stamp(self.tick, self._seq, self._id)
 
     def _letter(self, row: Topic, limit: int, sample: zenoh.Sample) -> Letter | None:
-        if sample.kind != zenoh.SampleKind.PUT:
-            return None
-        if self._lockstep and sample.attachment is None:
-            return None  # a nudge
+        if sample.kind != zenoh.SampleKind.PUT or (self._lockstep and sample.attachment is None):
+            return None  # nothing was said, or it is a nudge
         full_key = str(sample.key_expr)
         id = id_in(self._link.realm, row.path, full_key)
         stamp = stamp_of(sample.attachment)

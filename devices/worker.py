@@ -61,4 +61,8 @@ class Worker(Protocol):
         """None before the body knows where it is."""
 
     @property
+    def held_up(self) -> bool:
+        """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
+
+    @property
     def progress(self) -> tuple[float, str]: ...

@@ -101,7 +101,7 @@ class QuadrupedWorker:
             self._skill.close()
         self._skill = None
         self._body.stop_waiting()
-        self._body.path_m = ()
+        self._body.path_m, self._body.behind_other = (), False
         self._body.stand()
 
     @property
@@ -122,6 +122,10 @@ class QuadrupedWorker:
             holding=body.holding,
             standing_by_order=not body.may_move,
         )
+
+    @property
+    def held_up(self) -> bool:
+        return not self._body.may_move or self._aside_m is not None or self._body.behind_other
 
     @property
     def progress(self) -> tuple[float, str]:

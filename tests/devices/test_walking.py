@@ -161,6 +161,23 @@ def test_a_goal_that_takes_too_long_fails(yard: Yard) -> None:
     assert yard.driver.velocity.forward_mps == 0.0
 
 
+def test_waiting_for_others_is_not_the_goals_time(yard: Yard) -> None:
+    yard.hub.send(command("g-1", point_m=(3.4, 1.0), timeout_s=7.0))
+    yard.mesh.run(0.5)
+    yard.hub.go = False
+    yard.mesh.run(6.0)
+    yard.hub.go = True
+    yard.until_result(6.0)
+    assert yard.hub.results[0].status == "done"
+
+
+def test_nobody_waits_for_others_for_ever(yard: Yard) -> None:
+    yard.hub.go = False
+    yard.hub.send(command("g-1", point_m=(3.4, 1.0), timeout_s=5.0))
+    yard.until_result(11.0)
+    assert (yard.hub.results[0].status, yard.hub.results[0].code) == ("failed", "timeout")
+
+
 def test_card_tells_planners_what_it_can_do(yard: Yard) -> None:
     card = yard.mesh.call("card", CardRequest(), "dog-1", role="hub")
     assert isinstance(card, DeviceCard)

@@ -1,10 +1,10 @@
 """Where to step aside: a free spot near by, off everybody's way, best where robots have walked before."""
 
 from collections.abc import Callable, Sequence
-from math import cos, floor, hypot, inf, pi, sin
+from itertools import pairwise
+from math import cos, dist, floor, inf, pi, sin
 from typing import Protocol
 
-from hub.distance import Distances
 from hub.floor import FloorPlan, edge_distance_m, inside
 from hub.ways import path_to_path_m, point_to_path_m
 from wire.model import Vec2
@@ -16,6 +16,8 @@ _WALL_M = 0.08
 _DOOR_M = 1.05
 _UNTRODDEN_M = 1.5
 """Floor nobody has walked on costs this much more way: something unseen may stand there."""
+_OTHER_ROOM_M = 2.0
+"""So does another room: only where one's own has no spot near by."""
 _MARGIN_M = 0.15
 
 
@@ -40,65 +42,66 @@ class Parking:
 
     def __init__(self, plan: FloorPlan, blocked: Callable[[Vec2, float], bool]) -> None:
         self._plan, self._blocked = plan, blocked
-        self._distances = Distances(plan)
         self._trodden: set[tuple[int, int]] = set()
 
     def tread(self, point_m: Vec2) -> None:
         self._trodden.add(_cell(point_m))
 
     def find(self, mover: Body, ways: Sequence[Way], others: Sequence[Body]) -> Vec2 | None:
-        """The cheapest good spot, or None: straight ahead if there is one, else where the robot has to find a way."""
-        return self._cheapest(mover, ways, others, True) or self._cheapest(mover, ways, others, False)
-
-    def _cheapest(self, mover: Body, ways: Sequence[Way], others: Sequence[Body], straight: bool) -> Vec2 | None:
+        """The cheapest good spot, or None."""
         least, best = inf, None
         for ring_m in _RINGS_M:
             if least < ring_m:
                 break
             for spot in _around(mover.position_m, ring_m):
-                cost = self._distances.walk_m(mover.position_m, spot)
-                cost += 0.0 if _cell(spot) in self._trodden else _UNTRODDEN_M
-                if cost >= least or (straight and not self._straight(spot, mover, others)):
-                    continue
-                if self.good(spot, mover, ways, others):
+                cost = self._cost(spot, mover, others)
+                if cost < least and self.good(spot, mover, ways, others):
                     least, best = cost, spot
         return best
 
+    def _cost(self, spot: Vec2, mover: Body, others: Sequence[Body]) -> float:
+        """Metres to walk, with what speaks against the spot counted in; infinite when others are in between."""
+        own, there = self._plan.room_at(*mover.position_m), self._room(spot)
+        if there is None:
+            return inf
+        extra = 0.0 if _cell(spot) in self._trodden else _UNTRODDEN_M
+        if own == there:
+            corners: list[list[Vec2]] = [[]]
+        else:
+            corners = [[door.middle_m] for door in self._plan.doors if set(door.rooms) == {own, there}]
+            extra += _OTHER_ROOM_M
+        ways = [[mover.position_m, *middle, spot] for middle in corners]
+        lengths = [sum(dist(a, b) for a, b in pairwise(w)) for w in ways if all(_passes(w, mover, o) for o in others)]
+        return min(lengths, default=inf) + extra
+
+    def _room(self, point_m: Vec2) -> str | None:
+        """The room that a point is really in."""
+        return next((id for id, polygon in self._plan.polygons.items() if inside(point_m, polygon)), None)
+
     def good(self, spot: Vec2, mover: Body, ways: Sequence[Way], others: Sequence[Body]) -> bool:
         """Whether a robot may stand there, as far as is known."""
-        polygon = next((p for p in self._plan.polygons.values() if inside(spot, p)), None)
-        if polygon is None or edge_distance_m(spot, polygon) < mover.radius_m + _WALL_M:
+        room = self._room(spot)
+        if room is None or edge_distance_m(spot, self._plan.polygons[room]) < mover.radius_m + _WALL_M:
             return False
-        doors = self._plan.doors
-        if any(hypot(spot[0] - d.middle_m[0], spot[1] - d.middle_m[1]) < _DOOR_M for d in doors):
+        if any(dist(spot, door.middle_m) < _DOOR_M for door in self._plan.doors):
             return False
         if any(point_to_path_m(spot, path) < mover.radius_m + b.radius_m + _MARGIN_M for b, path in ways):
             return False
-        if any(_apart_m(spot, other.position_m) < mover.radius_m + other.radius_m + _MARGIN_M for other in others):
+        if any(dist(spot, other.position_m) < mover.radius_m + other.radius_m + _MARGIN_M for other in others):
             return False
         return not self._blocked(spot, mover.radius_m)
 
-    def _straight(self, spot: Vec2, mover: Body, others: Sequence[Body]) -> bool:
-        """Whether nothing is known to be between a robot and a spot in its own room."""
-        room = self._plan.room_at(*mover.position_m)
-        if room is None or not inside(spot, self._plan.polygons[room]):
-            return False
-        return all(self._passes(spot, mover, other) for other in others)
 
-    def _passes(self, spot: Vec2, mover: Body, other: Body) -> bool:
-        """No nearer to a standing body on the way there than now."""
-        close, gap = mover.radius_m + other.radius_m, _apart_m(mover.position_m, other.position_m)
-        return path_to_path_m([mover.position_m, spot], [other.position_m]) >= min(close + 0.05, gap - 0.02)
+def _passes(way_m: Sequence[Vec2], mover: Body, other: Body) -> bool:
+    """No nearer to a standing body on the way than now."""
+    close, gap = mover.radius_m + other.radius_m, dist(mover.position_m, other.position_m)
+    return path_to_path_m(way_m, [other.position_m]) >= min(close + 0.05, gap - 0.02)
 
 
 def _around(middle_m: Vec2, ring_m: float) -> list[Vec2]:
     """Points all around a place."""
     angles = (2.0 * pi * turn / _BEARINGS for turn in range(_BEARINGS))
     return [(round(middle_m[0] + ring_m * cos(a), 3), round(middle_m[1] + ring_m * sin(a), 3)) for a in angles]
-
-
-def _apart_m(a: Vec2, b: Vec2) -> float:
-    return hypot(a[0] - b[0], a[1] - b[1])
 
 
 def _cell(point_m: Vec2) -> tuple[int, int]:

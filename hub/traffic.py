@@ -153,7 +153,7 @@ class Traffic:
     def _rank(self, mover: Mover) -> tuple[bool, bool, bool, int, str]:
         """Smaller goes first."""
         ticket = self._tickets.get(mover.id)
-        in_door = mover.id in self._claims.values()
+        in_door = mover.id in self._claims.values() and mover.id not in self._aside  # who makes way goes after
         number = ticket.number if ticket is not None else 0
         return (mover.id != self._supreme, ticket is None, not in_door, number, mover.id)
 

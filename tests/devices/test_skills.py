@@ -156,7 +156,8 @@ def test_explores_the_whole_room() -> None:
 
 def test_explores_what_it_can_get_to_of_a_parted_room() -> None:
     room = Room()
-    room.driver.boxes += box(1.8, 2.0, 0.2, 4.0)
+    room.driver.boxes += box(1.35, 2.0, 0.2, 4.0)
+    room.driver.x = 0.65
     result = room.do("explore", room="west", looking_for=("Apple",))
     assert result.status == "done", result.reason
     assert room.driver.contacts == 0

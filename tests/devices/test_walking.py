@@ -142,6 +142,15 @@ def test_steps_aside_while_idle(yard: Yard) -> None:
     assert away_m(yard.driver, (2.5, 2.5)) < 0.3
 
 
+def test_has_no_way_left_when_it_need_not_step_aside_any_more(yard: Yard) -> None:
+    yard.hub.step_aside_m = (2.5, 2.5)
+    yard.mesh.run(1.5)
+    assert yard.hub.reports[-1].path_m
+    yard.hub.step_aside_m = None
+    yard.mesh.run(0.5)
+    assert yard.hub.reports[-1].path_m == ()
+
+
 def test_keeps_clear_of_other_robots(yard: Yard) -> None:
     yard.hub.others_m = ((2.2, 1.0),)
     yard.hub.send(command("g-1", point_m=(3.4, 1.0)))

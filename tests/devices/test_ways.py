@@ -228,11 +228,14 @@ def test_looking_covers_the_room_once() -> None:
     assert best[1] > 0.3
 
 
-def test_looks_from_where_it_can_get_to() -> None:
+def test_looks_only_from_where_it_can_get_to() -> None:
     floor = floor_with(*[(1.7, y) for y in np.arange(0.05, 4.0, 0.1)])
-    best = Coverage(floor, SITE.room[0].polygon_m).best_place((0.9, 2.0), [])
+    coverage = Coverage(floor, SITE.room[0].polygon_m)
+    best = coverage.best_place((0.9, 2.0), [])
     assert best is not None
     assert best[0][0] < 1.7
+    everywhere = [(0.9, y) for y in np.arange(0.5, 4.0, 0.4)]
+    assert coverage.best_place((0.9, 2.0), everywhere) is None
 
 
 def test_the_other_room_is_not_seen_through_the_wall() -> None:

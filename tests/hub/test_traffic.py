@@ -44,9 +44,9 @@ class _Walker:
     arrived = False
 
 
-def _play(walkers: list[_Walker], steps: int = 4000) -> tuple[float, int]:
-    """(least gap between two bodies, steps until all have arrived once)."""
-    traffic = Traffic(FloorPlan(flat()), lambda point, radius: False)
+def _play(walkers: list[_Walker], steps: int = 4000, full_to_m: float = 0.0) -> tuple[float, int]:
+    """(least gap between two bodies, steps until all have arrived once). West of `full_to_m` is no place to stand."""
+    traffic = Traffic(FloorPlan(flat()), lambda point, radius: point[0] < full_to_m)
     least = 9.0
     rulings = {}
     for step in range(steps):
@@ -78,6 +78,15 @@ def test_an_idle_robot_in_a_door_steps_aside() -> None:
     least, steps = _play(walkers)
     assert least > 0.0
     assert steps < 1200
+
+
+def test_an_idle_robot_leaves_a_full_room() -> None:
+    walkers = [_Walker("a", (0.6, 2.2), (3.4, 2.2)), _Walker("b", (2.6, 1.9), (2.6, 1.9))]
+    walkers[1].path, walkers[1].arrived = [], True
+    least, steps = _play(walkers, full_to_m=4.0)
+    assert least > 0.0
+    assert steps < 1200
+    assert walkers[1].xy[0] > 4.0
 
 
 def _spread(rng: random.Random, count: int) -> list[Vec2]:

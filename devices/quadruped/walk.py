@@ -140,7 +140,8 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
             return OFF_WAY
         if forward > 0.0 and body.room_ahead_m() < 0.05:
             forward = 0.0
-        body.behind_other = watch.waits_for_other(body, forward > 0.0 and runs_into_other(body))
+        left_m = path.length_m([body.position_m, *follower.left_m])
+        body.behind_other = watch.waits_for_other(body, forward > 0.0 and runs_into_other(body, left_m))
         if body.behind_other:
             forward = 0.0
             if watch.patience_over(body):

@@ -162,6 +162,14 @@ def test_keeps_clear_of_other_robots(yard: Yard) -> None:
     assert nearest > 0.75
 
 
+def test_another_robot_beyond_the_end_of_the_way_is_not_in_it(yard: Yard) -> None:
+    yard.hub.others_m = ((2.98, 1.0),)
+    yard.hub.send(command("g-1", point_m=(2.05, 1.05)))
+    yard.until_result(15.0)
+    assert yard.hub.results[0].status == "done"
+    assert away_m(yard.driver, (2.05, 1.05)) < 0.15
+
+
 def test_a_goal_that_takes_too_long_fails(yard: Yard) -> None:
     yard.hub.send(command("g-1", point_m=(7.0, 3.0), timeout_s=3.0))
     yard.until_result(5.0)

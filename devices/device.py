@@ -176,7 +176,8 @@ class Device:
 
     def _work(self, job: Job, now_s: float, passed_s: float) -> None:
         outcome = self._worker.work(now_s)
-        if self._worker.held_up and job.held_up_s < job.command.timeout_s:
+        pose = self._worker.pose
+        if pose is not None and pose.held_up and job.held_up_s < job.command.timeout_s:
             # Waiting for others is not the goal's time; but nobody waits for ever.
             job.held_up_s += passed_s
             job.deadline_s += passed_s

@@ -28,6 +28,8 @@ class Pose:
     action_steps: int
     holding: bool
     standing_by_order: bool
+    held_up: bool = False
+    """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
 
 
 class Worker(Protocol):
@@ -59,10 +61,6 @@ class Worker(Protocol):
     @property
     def pose(self) -> Pose | None:
         """None before the body knows where it is."""
-
-    @property
-    def held_up(self) -> bool:
-        """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
 
     @property
     def progress(self) -> tuple[float, str]: ...

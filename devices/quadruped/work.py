@@ -121,11 +121,8 @@ class QuadrupedWorker:
             action_steps=body.action_steps,
             holding=body.holding,
             standing_by_order=not body.may_move,
+            held_up=not body.may_move or self._aside_m is not None or body.behind_other,
         )
-
-    @property
-    def held_up(self) -> bool:
-        return not self._body.may_move or self._aside_m is not None or self._body.behind_other
 
     @property
     def progress(self) -> tuple[float, str]:

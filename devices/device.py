@@ -34,6 +34,7 @@ class Job:
     travelled_m: float
     action_steps: int
     cancelled: bool = False
+    held_up_s: float = 0.0
 
 
 class Device:
@@ -77,7 +78,7 @@ class Device:
         elif self._job is None:
             self._worker.idle(now_s)
         else:
-            self._work(self._job, now_s)
+            self._work(self._job, now_s, passed_s)
         self._tell(now_s)
 
     def hub_lost(self, now_s: float) -> bool:
@@ -173,8 +174,13 @@ class Device:
         self._journal.run(command.goal_id)
         self._begin(command, now_s)
 
-    def _work(self, job: Job, now_s: float) -> None:
+    def _work(self, job: Job, now_s: float, passed_s: float) -> None:
         outcome = self._worker.work(now_s)
+        pose = self._worker.pose
+        if pose is not None and pose.held_up and job.held_up_s < job.command.timeout_s:
+            # Waiting for others is not the goal's time; but nobody waits for ever.
+            job.held_up_s += passed_s
+            job.deadline_s += passed_s
         if job.cancelled and (outcome is not None or not self._worker.committed):
             reason = outcome.reason if outcome is not None else "cancelled by the hub"
             outcome = Outcome("cancelled", "cancelled", reason, outcome.point_enu_m if outcome else None)

@@ -28,6 +28,8 @@ class Pose:
     action_steps: int
     holding: bool
     standing_by_order: bool
+    held_up: bool = False
+    """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
 
 
 class Worker(Protocol):

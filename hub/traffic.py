@@ -24,10 +24,12 @@ _AHEAD_M = 2.6
 """This much of a path is kept clear for the one that goes first."""
 _HARD_AHEAD_M = 0.35
 _SWEPT_M = 0.2
+_SPOT_M = 0.6
+"""A way that ends this near to the place to step aside to leads there."""
 _REST_S = 1.0
 _SWAP_S = 4.0
 _STIR_M = 0.1
-_STUCK_S = 5.0
+_STUCK_S, _STILL_S = 5.0, 3.0
 _REIGN_S = 6.0
 
 
@@ -53,6 +55,8 @@ class Ruling:
     go: bool
     step_aside_m: Vec2 | None = None
     because: str = ""
+    held_by: str = ""
+    """Who is waited for."""
 
 
 @dataclass
@@ -80,6 +84,8 @@ class Traffic:
     _reigns: dict[str, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self._held_by: dict[str, str] = {}
+        """Who waited for whom at the last look."""
         self._moves: dict[str, list[Vec2]] = {}
         """What each robot sweeps until the next look, of those already told."""
         self._parking = Parking(self.floor, self.blocked)
@@ -98,9 +104,9 @@ class Traffic:
         for index, mover in enumerate(order):
             ruling = rulings[mover.id] = self._rule_one(mover, order[:index], movers, now_s)
             if ruling.go:
-                aside = ruling.step_aside_m
-                way = mover.way if aside is None else [mover.position_m, aside]
+                way = mover.way if ruling.step_aside_m is None else _way_aside(mover, ruling.step_aside_m)
                 self._moves[mover.id] = cut(way, _SWEPT_M)
+        self._held_by = {id: ruling.held_by for id, ruling in rulings.items() if not ruling.go and ruling.held_by}
         return rulings
 
     def _ticket(self, mover: Mover, now_s: float) -> None:
@@ -121,7 +127,8 @@ class Traffic:
 
     def _crown(self, movers: Sequence[Mover], now_s: float) -> None:
         """Whoever has waited too long goes before everybody, in turn: no knot holds for ever."""
-        stuck = [m for m in movers if now_s - self._moved[m.id][1] > _STUCK_S]
+        by_id = {m.id: m for m in movers}
+        stuck = [m for m in movers if self._is_knotted(m, by_id, now_s)]
         reigning = next((m for m in movers if m.id == self._supreme and m.path_m), None)
         if reigning is not None and now_s - max(self._supreme_s, self._moved[reigning.id][1]) < _REIGN_S:
             return
@@ -131,10 +138,22 @@ class Traffic:
             self._supreme, self._supreme_s = heir.id, now_s
             self._reigns[heir.id] = self._reigns.get(heir.id, 0) + 1
 
+    def _is_knotted(self, mover: Mover, by_id: dict[str, Mover], now_s: float) -> bool:
+        """Whether a robot has waited long, and in the end for one that stands: a queue that moves on is no knot."""
+        here, patience_s = mover, _STUCK_S
+        for _ in by_id:
+            if here.path_m and now_s - self._moved[here.id][1] <= patience_s:
+                return False
+            holder = by_id.get(self._held_by.get(here.id, ""))
+            if holder is None:
+                break
+            here, patience_s = holder, _STILL_S
+        return bool(mover.path_m)
+
     def _rank(self, mover: Mover) -> tuple[bool, bool, bool, int, str]:
         """Smaller goes first."""
         ticket = self._tickets.get(mover.id)
-        in_door = mover.id in self._claims.values()
+        in_door = mover.id in self._claims.values() and mover.id not in self._aside  # who makes way goes after
         number = ticket.number if ticket is not None else 0
         return (mover.id != self._supreme, ticket is None, not in_door, number, mover.id)
 
@@ -169,12 +188,12 @@ class Traffic:
         for door in self.floor.doors:
             owner = self._claims.get(door.id)
             if owner not in (None, mover.id) and not _in_zone(mover, door) and _enters(near, door):
-                return Ruling(go=False, because=f"{owner} is in {door.id}")
+                return Ruling(go=False, because=f"{owner} is in {door.id}", held_by=owner or "")
         for first in before:
             if first.path_m and self._comes_into(near, mover, first):
-                return Ruling(go=False, because=f"{first.id} goes first")
+                return Ruling(go=False, because=f"{first.id} goes first", held_by=first.id)
         bumped = self._bumps(mover, mover.way, movers)
-        return Ruling(go=bumped is None, because=f"{bumped} is in front" if bumped is not None else "")
+        return Ruling(go=True) if bumped is None else Ruling(False, because=f"{bumped} is in front", held_by=bumped)
 
     def _in_way(self, mover: Mover, first: Mover) -> bool:
         """Whether a robot, where it is, keeps another from its path."""
@@ -204,11 +223,12 @@ class Traffic:
         if spot is None:
             self._swap(mover, first, now_s)
             self._aside.pop(mover.id, None)
-            return Ruling(go=False, because=f"in the way of {first.id}, with nowhere to go")
+            return Ruling(go=False, because=f"in the way of {first.id}, with nowhere to go", held_by=first.id)
         self._aside[mover.id] = spot
-        bumped = self._bumps(mover, [mover.position_m, spot], movers)
+        bumped = self._bumps(mover, _way_aside(mover, spot), movers)
         if bumped is not None:
-            return Ruling(go=False, because=f"{bumped} is in front of the place to step aside to")
+            because = f"{bumped} is in front of the place to step aside to"
+            return Ruling(go=False, because=because, held_by=bumped)
         return Ruling(go=True, step_aside_m=spot, because=f"in the way of {first.id}")
 
     def _swap(self, mover: Mover, first: Mover, now_s: float) -> None:
@@ -244,6 +264,11 @@ def _leads_away(mover: Mover, first: Mover, clear_m: float) -> bool:
     gap = _apart_m(mover.position_m, first.position_m)
     further = _apart_m(mine[-1], first.position_m)
     return further > gap + 0.5 and gap > 0.6 * clear_m
+
+
+def _way_aside(mover: Mover, spot: Vec2) -> list[Vec2]:
+    """The way that a robot has found to a place to step aside to, or the straight one until it tells."""
+    return mover.way if mover.path_m and _apart_m(mover.path_m[-1], spot) < _SPOT_M else [mover.position_m, spot]
 
 
 def _away_m(mover: Mover, door: Doorway) -> float:

@@ -39,6 +39,8 @@ class Body:
         self.order: TrafficOrder | None = None
         self.looks: deque[Look] = deque(maxlen=MOST_LOOKS)
         self.path_m: tuple[Vec2, ...] = ()
+        self.behind_other = False
+        """Standing because another robot is in the way."""
         self.goal_id = ""
         self.note, self.fraction = "", 0.0
         self.travelled_m, self.action_steps = 0.0, 0

@@ -6,7 +6,7 @@ import numpy as np
 
 from devices.quadruped.look import Look
 from devices.quadruped.map import CELL_M, FloorMap, Mask
-from devices.quadruped.path import NEEDED_M
+from devices.quadruped.path import NEEDED_M, prices, reachable
 from wire.model import Vec2
 
 SEEN, GLANCED = 3.0, 1.0
@@ -63,9 +63,9 @@ class Coverage:
         return float(seen.sum()) / self._cells
 
     def best_place(self, here_m: Vec2, not_at_m: list[Vec2]) -> tuple[Vec2, float] | None:
-        """Where to look around next, and what that would show; None when there is nowhere to stand."""
+        """Where to look around next, and what that would show; None when no way leads to any place in the room."""
         best: tuple[float, Vec2, float] | None = None
-        for place_m in self._lattice(not_at_m):
+        for place_m in self._lattice(here_m, not_at_m):
             gain = self.gain(place_m, 0.0)
             away = float(np.hypot(place_m[0] - here_m[0], place_m[1] - here_m[1]))
             worth = gain - WALK_PRICE_PER_M * away
@@ -73,8 +73,9 @@ class Coverage:
                 best = (worth, place_m, gain)
         return None if best is None else (best[1], best[2])
 
-    def _lattice(self, not_at_m: list[Vec2]) -> list[Vec2]:
+    def _lattice(self, here_m: Vec2, not_at_m: list[Vec2]) -> list[Vec2]:
         free = self._room & (self._floor.clearance_m >= NEEDED_M)
+        free &= reachable(self._floor, prices(self._floor, here_m), here_m)
         for tried_m in not_at_m:
             free &= self._floor.distance_m(tried_m) > LATTICE_M
         every = ceil(LATTICE_M / CELL_M)

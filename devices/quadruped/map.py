@@ -21,7 +21,8 @@ HIT, MISS, MOST, SOLID = 0.5, -0.25, 3.0, 0.7
 SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
-OTHER_ROBOT_M = 0.6
+OTHER_ROBOT_M, OTHER_BODY_M = 0.6, 0.42
+"""What is seen this near to where another robot was said to be is that robot, and what is marked within its body too."""
 TRUSTED_M = 3.4
 """What is seen further off may be a robot of which the traffic has not told yet."""
 ON_WALL_END_M, WALL_FACE_M = 0.2, 0.03
@@ -102,6 +103,7 @@ class FloorMap:
         self._pass(origin, ray, np.where(ranges > 0.0, ranges, scan.range_max_m) - SHORT_OF_HIT_M)
         ends = (origin + ray * ranges[:, None])[(ranges > 0.0) & (ranges < TRUSTED_M)]
         for other_m in others_m:
+            self._clear_under(other_m)
             ends = ends[np.hypot(ends[:, 0] - other_m[0], ends[:, 1] - other_m[1]) > OTHER_ROBOT_M]
         self.mark(ends, scan.stamp_s)
 
@@ -121,6 +123,16 @@ class FloorMap:
         """Drop obstacles not seen since: things move, and a blocked way is worth another look."""
         self._weight[self._seen_s < before_s] = 0.0
         self._changed()
+
+    def _clear_under(self, other_m: Vec2) -> None:
+        """No furniture is where another robot stands: what was marked there was the robot, seen before it was told of.
+
+        Beams end at its body, so that while it stays none would pass through these places and clear them.
+        """
+        under = (self._weight > 0.0) & (self.distance_m(other_m) < OTHER_BODY_M)
+        if under.any():
+            self._weight[under] = 0.0
+            self._changed()
 
     @property
     def obstacles_m(self) -> Grid:

@@ -7,7 +7,7 @@ from math import hypot
 
 import numpy as np
 
-from devices.quadruped.map import CELL_M, Cell, FloorMap, Grid
+from devices.quadruped.map import CELL_M, Cell, FloorMap, Grid, Mask
 from wire.model import Vec2
 
 NEEDED_M = 0.42
@@ -35,6 +35,22 @@ def prices(floor: FloorMap, start_m: Vec2, others_m: tuple[Vec2, ...] = (), othe
     tight = np.where(escape, ESCAPE_PRICE, np.inf)
     result: Grid = np.where(clearance >= NEEDED_M, price, tight).astype(np.float32)
     return result
+
+
+def reachable(floor: FloorMap, price: Grid, start_m: Vec2) -> Mask:
+    """Cells to which any way leads at these prices."""
+    fits, first = np.isfinite(price), floor.cell(start_m)
+    fits[first.row, first.column] = True
+    wide = np.zeros((floor.rows + 2, floor.columns + 2), np.bool_)
+    reached = wide[1:-1, 1:-1]
+    reached[first.row, first.column] = True
+    count = 0
+    while count != (count := int(reached.sum())):
+        wide[1:-1] |= wide[:-2] | wide[2:]
+        wide[:, 1:-1] |= wide[:, :-2] | wide[:, 2:]
+        reached &= fits
+        wide[0] = wide[-1] = wide[:, 0] = wide[:, -1] = False
+    return reached
 
 
 def search(floor: FloorMap, price: Grid, start_m: Vec2, goals: Mapping[Cell, float]) -> list[Vec2] | None:

@@ -30,7 +30,7 @@ def near_point(floor: FloorMap, point_m: Vec2) -> Mapping[Cell, float]:
     """As near to a point as the robot can stand."""
     away = floor.distance_m(point_m)
     free = floor.clearance_m >= NEEDED_M
-    slack = max(POINT_SLACK_M, float(away[free].min(initial=POINT_SLACK_M)) + 0.2) if free.any() else POINT_SLACK_M
+    slack = max(POINT_SLACK_M, float(away[free].min()) + 0.2) if free.any() else POINT_SLACK_M
     return _cells(floor, free & (away < slack), POINT_PRICE * away)
 
 

@@ -13,7 +13,7 @@ from devices.quadruped.look import Thing
 from devices.quadruped.map import Cell
 from devices.quadruped.moves import Skilled
 from devices.quadruped.robot import Robot
-from devices.quadruped.walk import await_odometry, face, walk
+from devices.quadruped.walk import Walked, await_odometry, face, walk
 from devices.worker import Outcome
 from wire.catalogue import catalogue
 from wire.frames import distance_m
@@ -71,6 +71,11 @@ class Finder:
         steps.close()
         return None
 
+    def inside(self, point_m: Vec2) -> bool:
+        """Whether a point lies in the room."""
+        cell = self._body.floor.cell(point_m)
+        return bool(self._inside[cell.row, cell.column])
+
     def _take_in(self) -> None:
         for look in self._body.looks:
             if look.stamp_s <= self._from_s:
@@ -81,8 +86,7 @@ class Finder:
                 self._consider(thing)
 
     def _consider(self, thing: Thing) -> None:
-        cell = self._body.floor.cell(thing.position_enu_m[:2])
-        if not self._inside[cell.row, cell.column]:
+        if not self.inside(thing.position_enu_m[:2]):
             return
         weights = {thing.type: thing.confidence, **thing.maybe}
         self._suspects += [(thing.position_enu_m, t, weights[t]) for t in self._looking_for if t in weights]
@@ -120,29 +124,42 @@ def explore(robot: Robot, command: Command) -> Skilled:
         return Outcome("failed", "precondition", "this robot runs without its camera")
     yield from await_odometry(body)
     finder = Finder(robot, room, command.looking_for)
-    places_m: list[Vec2] = []
-    area_m2 = finder.coverage.area_m2
-    while finder.coverage.left * area_m2 > ENOUGH_LEFT_M2 and len(places_m) < MOST_PLACES:
-        body.note = f"looking through {room.name}, {finder.coverage.left:.0%} left"
-        body.fraction = 1.0 - finder.coverage.left
-        best = finder.coverage.best_place(body.position_m, places_m)
-        if best is None or (places_m and best[1] * area_m2 < WORTH_A_WALK_M2):
-            break
-        place_m = best[0]
-        body.tilt(SEARCH_TILT_RAD)
-        walked = yield from finder.watch(walk(body, partial(places.near_point, body.floor, place_m)))
-        if finder.found is None and walked is not None and not walked.arrived and not places_m:
-            return Outcome("failed", walked.code, f"{room.name}: {walked.reason}")
-        places_m.append(place_m)
-        yield from finder.watch(_look_round(robot, finder))
-        if finder.found is not None:
-            break
+    trouble = yield from _look_through(robot, finder, room)
+    if trouble is not None and finder.found is None:
+        return Outcome("failed", trouble.code, f"{room.name}: {trouble.reason}")
     if finder.found is None:
         yield from _look_again(robot, finder, room)
     if finder.found is not None:
         return Outcome("done", "ok", f"found {finder.found.type} in {room.name}", finder.found.position_enu_m)
     wanted = f"; no {', '.join(command.looking_for)} seen" if command.looking_for else ""
     return Outcome("done", "ok", f"looked at {1.0 - finder.coverage.left:.0%} of {room.name}{wanted}")
+
+
+def _look_through(robot: Robot, finder: Finder, room: Room) -> Generator[None, None, Walked | None]:
+    """Look around from place after place; tells why when the robot did not get into the room at all."""
+    body, coverage = robot.body, finder.coverage
+    tried_m: list[Vec2] = []
+    been, walked = False, None
+    while coverage.left * coverage.area_m2 > ENOUGH_LEFT_M2 and len(tried_m) < MOST_PLACES:
+        body.note = f"looking through {room.name}, {coverage.left:.0%} left"
+        body.fraction = 1.0 - coverage.left
+        best = coverage.best_place(body.position_m, tried_m)
+        if been and (best is None or best[1] * coverage.area_m2 < WORTH_A_WALK_M2):
+            break
+        body.tilt(SEARCH_TILT_RAD)
+        if best is not None:
+            steps = walk(body, partial(places.near_point, body.floor, best[0]), no_way_tries=0)
+        else:
+            steps = walk(body, partial(places.in_room, body.floor, room, robot.site.door))
+        walked = yield from finder.watch(steps)
+        been = been or finder.inside(body.position_m)
+        if best is None and not been:
+            break
+        tried_m.append(best[0] if best is not None else body.position_m)
+        yield from finder.watch(_look_round(robot, finder))
+        if finder.found is not None:
+            break
+    return None if been else walked
 
 
 def _look_again(robot: Robot, finder: Finder, room: Room) -> Generator[None, None, None]:

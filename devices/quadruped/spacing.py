@@ -41,10 +41,11 @@ def edge_away(body: Body) -> Generator[None, None, None]:
     body.stand()
 
 
-def runs_into_other(body: Body) -> bool:
-    """Whether going straight on leads too near to another robot."""
+def runs_into_other(body: Body, left_m: float) -> bool:
+    """Whether going straight on, as far as there is way left, leads too near to another robot."""
     x, y = body.position_m
-    ahead = (x + AHEAD_M * cos(body.yaw_rad), y + AHEAD_M * sin(body.yaw_rad))
+    ahead_m = min(AHEAD_M, left_m)
+    ahead = (x + ahead_m * cos(body.yaw_rad), y + ahead_m * sin(body.yaw_rad))
     for other in body.others_m:
         then_m = hypot(other[0] - ahead[0], other[1] - ahead[1])
         if then_m < OTHER_GAP_M and then_m < hypot(other[0] - x, other[1] - y) - NEARER_M:

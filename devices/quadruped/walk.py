@@ -81,8 +81,13 @@ def face_point(body: Body, point_m: Vec2, within_rad: float = FACING_RAD) -> Ste
     yield from face(body, bearing_rad(body.position_m, point_m), within_rad)
 
 
-def walk(body: Body, goals: Goals, around: bool = False) -> Generator[None, None, Walked]:
-    """Go to the cheapest of the goals; `around` other robots from the start, or only when they stay in the way."""
+def walk(
+    body: Body, goals: Goals, around: bool = False, no_way_tries: int = NO_WAY_TRIES
+) -> Generator[None, None, Walked]:
+    """Go to the cheapest of the goals; `around` other robots from the start, or only when they stay in the way.
+
+    `no_way_tries`: so often, where no way is known, old obstacles are forgotten and it is tried anew.
+    """
     yield from await_odometry(body)
     no_way = 0
     tries = 0
@@ -92,14 +97,14 @@ def walk(body: Body, goals: Goals, around: bool = False) -> Generator[None, None
         legs = (_plan(body, goals, body.others_m) if around else None) or _plan(body, goals, ())
         if legs is None:
             no_way += 1
-            if no_way > NO_WAY_TRIES:
+            if no_way > no_way_tries:
                 return Walked("unreachable", "there is no way to it that the robot fits through")
             body.floor.forget(body.now_s - STALE_S)
             yield from wait(body, 0.5 * NO_WAY_WAIT_S)
             continue
         trouble = yield from follow(body, legs)
         around = trouble == OTHER_IN_WAY and not around
-        body.path_m = ()
+        body.path_m, body.behind_other = (), False
         body.stand()
         if not trouble:
             return Walked()
@@ -135,7 +140,9 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
             return OFF_WAY
         if forward > 0.0 and body.room_ahead_m() < 0.05:
             forward = 0.0
-        if watch.waits_for_other(body, forward > 0.0 and runs_into_other(body)):
+        left_m = path.length_m([body.position_m, *follower.left_m])
+        body.behind_other = watch.waits_for_other(body, forward > 0.0 and runs_into_other(body, left_m))
+        if body.behind_other:
             forward = 0.0
             if watch.patience_over(body):
                 return OTHER_IN_WAY

@@ -101,7 +101,7 @@ class QuadrupedWorker:
             self._skill.close()
         self._skill = None
         self._body.stop_waiting()
-        self._body.path_m = ()
+        self._body.path_m, self._body.behind_other = (), False
         self._body.stand()
 
     @property
@@ -121,6 +121,7 @@ class QuadrupedWorker:
             action_steps=body.action_steps,
             holding=body.holding,
             standing_by_order=not body.may_move,
+            held_up=not body.may_move or self._aside_m is not None or body.behind_other,
         )
 
     @property
@@ -132,7 +133,11 @@ class QuadrupedWorker:
         order = self._body.order
         wanted = order.step_aside_m if order else None
         if wanted is None or self._body.gripping or self._body.odometry is None:
-            self._aside = self._aside_m = None
+            if self._aside_m is not None:
+                # The way aside is over; told of any longer, it would be kept clear for nobody.
+                self._aside = self._aside_m = None
+                self._body.path_m = ()
+                self._body.stand()
             return False
         if self._aside_m is None or hypot(wanted[0] - self._aside_m[0], wanted[1] - self._aside_m[1]) > ASIDE_AGAIN_M:
             self._aside_m, self._aside = wanted, Pace(self._body, self._clear_the_way(wanted))

@@ -154,6 +154,22 @@ def test_explores_the_whole_room() -> None:
     assert share >= 94
 
 
+def test_explores_what_it_can_get_to_of_a_parted_room() -> None:
+    room = Room()
+    room.driver.boxes += box(1.35, 2.0, 0.2, 4.0)
+    room.driver.x = 0.65
+    result = room.do("explore", room="west", looking_for=("Apple",))
+    assert result.status == "done", result.reason
+    assert room.driver.contacts == 0
+
+
+def test_a_room_without_a_way_in_is_said_to_be_unreachable() -> None:
+    room = Room()
+    room.driver.boxes += box(4.0, 2.0, 0.3, 1.2)
+    result = room.do("explore", room="east", looking_for=("Apple",))
+    assert (result.status, result.code) == ("failed", "unreachable")
+
+
 def test_explore_ends_when_it_has_found_something() -> None:
     room, empty = Room(apple(6.0, 3.5)), Room()
     result = room.do("explore", room="east", looking_for=("Apple", "Mug"))

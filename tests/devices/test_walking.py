@@ -142,6 +142,15 @@ def test_steps_aside_while_idle(yard: Yard) -> None:
     assert away_m(yard.driver, (2.5, 2.5)) < 0.3
 
 
+def test_has_no_way_left_when_it_need_not_step_aside_any_more(yard: Yard) -> None:
+    yard.hub.step_aside_m = (2.5, 2.5)
+    yard.mesh.run(1.5)
+    assert yard.hub.reports[-1].path_m
+    yard.hub.step_aside_m = None
+    yard.mesh.run(0.5)
+    assert yard.hub.reports[-1].path_m == ()
+
+
 def test_keeps_clear_of_other_robots(yard: Yard) -> None:
     yard.hub.others_m = ((2.2, 1.0),)
     yard.hub.send(command("g-1", point_m=(3.4, 1.0)))
@@ -153,12 +162,37 @@ def test_keeps_clear_of_other_robots(yard: Yard) -> None:
     assert nearest > 0.75
 
 
+def test_another_robot_beyond_the_end_of_the_way_is_not_in_it(yard: Yard) -> None:
+    yard.hub.others_m = ((2.98, 1.0),)
+    yard.hub.send(command("g-1", point_m=(2.05, 1.05)))
+    yard.until_result(15.0)
+    assert yard.hub.results[0].status == "done"
+    assert away_m(yard.driver, (2.05, 1.05)) < 0.15
+
+
 def test_a_goal_that_takes_too_long_fails(yard: Yard) -> None:
     yard.hub.send(command("g-1", point_m=(7.0, 3.0), timeout_s=3.0))
     yard.until_result(5.0)
     assert (yard.hub.results[0].status, yard.hub.results[0].code) == ("failed", "timeout")
     yard.mesh.run(0.2)
     assert yard.driver.velocity.forward_mps == 0.0
+
+
+def test_waiting_for_others_is_not_the_goals_time(yard: Yard) -> None:
+    yard.hub.send(command("g-1", point_m=(3.4, 1.0), timeout_s=7.0))
+    yard.mesh.run(0.5)
+    yard.hub.go = False
+    yard.mesh.run(6.0)
+    yard.hub.go = True
+    yard.until_result(6.0)
+    assert yard.hub.results[0].status == "done"
+
+
+def test_nobody_waits_for_others_for_ever(yard: Yard) -> None:
+    yard.hub.go = False
+    yard.hub.send(command("g-1", point_m=(3.4, 1.0), timeout_s=5.0))
+    yard.until_result(11.0)
+    assert (yard.hub.results[0].status, yard.hub.results[0].code) == ("failed", "timeout")
 
 
 def test_card_tells_planners_what_it_can_do(yard: Yard) -> None:

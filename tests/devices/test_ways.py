@@ -81,6 +81,28 @@ def test_walls_and_other_robots_are_no_furniture() -> None:
     assert floor.room_m((1.0, 2.0), (3.0, 2.0)) == 1.0
 
 
+def test_a_robot_seen_before_it_was_told_of_leaves_no_mark() -> None:
+    floor = FloorMap(SITE)
+    for _ in range(4):
+        floor.see(scan(1.0, 2.0, 1.0))
+    assert floor.room_m((1.0, 2.0), (3.0, 2.0)) < 0.1
+    floor.see(scan(1.0, 2.0, 1.0), others_m=[(2.3, 2.0)])
+    assert floor.room_m((1.0, 2.0), (3.0, 2.0)) == 1.0
+
+
+def test_furniture_beside_another_robot_stays() -> None:
+    floor = floor_with((2.0, 2.0))
+    floor.see(scan(1.0, 3.0, 0.0), others_m=[(2.5, 2.0)])
+    assert floor.room_m((1.0, 2.0), (3.0, 2.0)) < 0.1
+
+
+def test_as_near_as_can_be_to_a_point_where_nothing_fits() -> None:
+    floor = floor_with(*[(x, y) for x in np.arange(0.1, 2.6, 0.2) for y in np.arange(0.1, 4.0, 0.2)])
+    cells = places.near_point(floor, (0.3, 2.0))
+    assert cells
+    assert min(floor.centre_m(cell)[0] for cell in cells) < 3.2
+
+
 @settings(max_examples=60, deadline=None)
 @given(start=Point, end=Point, things=st.lists(Point, max_size=6))
 def test_a_way_keeps_its_distance_and_leads_to_the_goal(start: tuple, end: tuple, things: list) -> None:
@@ -140,6 +162,16 @@ def _dijkstra(floor: FloorMap, price: np.ndarray, start: tuple) -> dict:
     return cost
 
 
+@settings(max_examples=25, deadline=None)
+@given(start=Point, things=st.lists(Point, max_size=6))
+def test_reachable_is_what_a_way_leads_to(start: tuple, things: list) -> None:
+    floor = floor_with(*things)
+    price = path.prices(floor, start)
+    reached = path.reachable(floor, price, start)
+    for cell in [floor.cell((x, y)) for x in (1.0, 3.0, 5.0, 7.0) for y in (1.0, 3.0)]:
+        assert bool(reached[cell.row, cell.column]) == (path.search(floor, price, start, {cell: 0.0}) is not None)
+
+
 def test_a_doorway_is_passed_straight() -> None:
     floor = FloorMap(SITE)
     price = path.prices(floor, (1.0, 3.0))
@@ -194,6 +226,16 @@ def test_looking_covers_the_room_once() -> None:
     best = coverage.best_place((2.0, 1.0), [])
     assert best is not None
     assert best[1] > 0.3
+
+
+def test_looks_only_from_where_it_can_get_to() -> None:
+    floor = floor_with(*[(1.7, y) for y in np.arange(0.05, 4.0, 0.1)])
+    coverage = Coverage(floor, SITE.room[0].polygon_m)
+    best = coverage.best_place((0.9, 2.0), [])
+    assert best is not None
+    assert best[0][0] < 1.7
+    everywhere = [(0.9, y) for y in np.arange(0.5, 4.0, 0.4)]
+    assert coverage.best_place((0.9, 2.0), everywhere) is None
 
 
 def test_the_other_room_is_not_seen_through_the_wall() -> None:

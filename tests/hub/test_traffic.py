@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hub.floor import FloorPlan
+from hub.floor import FloorPlan, inside
+from hub.parking import Parking
 from hub.traffic import Mover, Traffic
 from tests.hub.scenes import flat
 from tests.hub.toys import STEP_M, way
@@ -43,9 +44,9 @@ class _Walker:
     arrived = False
 
 
-def _play(walkers: list[_Walker], steps: int = 4000) -> tuple[float, int]:
-    """(least gap between two bodies, steps until all have arrived once)."""
-    traffic = Traffic(FloorPlan(flat()), lambda point, radius: False)
+def _play(walkers: list[_Walker], steps: int = 4000, full_to_m: float = 0.0) -> tuple[float, int]:
+    """(least gap between two bodies, steps until all have arrived once). West of `full_to_m` is no place to stand."""
+    traffic = Traffic(FloorPlan(flat()), lambda point, radius: point[0] < full_to_m)
     least = 9.0
     rulings = {}
     for step in range(steps):
@@ -79,6 +80,15 @@ def test_an_idle_robot_in_a_door_steps_aside() -> None:
     assert steps < 1200
 
 
+def test_an_idle_robot_leaves_a_full_room() -> None:
+    walkers = [_Walker("a", (0.6, 2.2), (3.4, 2.2)), _Walker("b", (2.6, 1.9), (2.6, 1.9))]
+    walkers[1].path, walkers[1].arrived = [], True
+    least, steps = _play(walkers, full_to_m=4.0)
+    assert least > 0.0
+    assert steps < 1200
+    assert walkers[1].xy[0] > 4.0
+
+
 def _spread(rng: random.Random, count: int) -> list[Vec2]:
     spots: list[Vec2] = []
     while len(spots) < count:
@@ -109,3 +119,30 @@ def test_random_teams(seed: int, count: int) -> None:
     least, steps = _play([_Walker(f"dog-{i}", starts[i], goals[i]) for i in range(count)])
     assert least > 0.0
     assert steps < 4000
+
+
+@given(x=st.floats(0.5, 11.5), y=st.floats(0.5, 3.5))
+@settings(max_examples=60, deadline=None)
+def test_robots_step_aside_within_the_building(x: float, y: float) -> None:
+    plan = FloorPlan(flat())
+    mover, first = Mover("dog-1", (x, y), ()), Mover("dog-2", (6.0, 2.0), ((x, y),))
+    spot = Parking(plan, lambda point, radius: False).find(mover, [(first, first.way)], [first])
+    assert spot is None or any(inside(spot, polygon) for polygon in plan.polygons.values())
+
+
+def test_a_robot_in_a_full_room_steps_aside_into_the_next() -> None:
+    traffic = Traffic(FloorPlan(flat()), lambda point, radius: point[0] < 4.0)
+    idle, first = Mover("dog-1", (2.0, 1.6), ()), Mover("dog-2", (0.6, 0.6), ((3.4, 2.6),))
+    ruling = traffic.rule([idle, first], 0.0)["dog-1"]
+    assert ruling.step_aside_m is not None
+    assert ruling.step_aside_m[0] > 4.0
+
+
+def test_a_queue_that_moves_on_is_no_knot() -> None:
+    traffic = Traffic(FloorPlan(flat()), lambda point, radius: False)
+    for look in range(55):
+        front = Mover("dog-1", (1.6 + 0.01 * look, 2.0), ((7.0, 2.0),))
+        back = Mover("dog-2", (0.6, 2.0), ((7.0, 2.0),))
+        ruling = traffic.rule([front, back], 0.2 * look)["dog-1"]
+        assert ruling.go, ruling
+        assert ruling.step_aside_m is None, ruling

@@ -38,6 +38,7 @@ class Command(Message):
     valid_until_s: Stamp
     """Not started after this."""
     timeout_s: float = Field(gt=0.0)
+    """From its start. Waiting for other robots does not count, but no longer than this again."""
 
 
 GoalStatus = Literal["accepted", "running", "done", "failed", "cancelled", "expired", "interrupted"]

@@ -3,20 +3,23 @@
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
-from math import inf
+from itertools import islice
+from math import cos, inf, sin
 from random import Random
 from typing import TypeVar
 
 import numpy as np
 
-from sim.boxes import body_box
+from sim.boxes import body_box, structure_boxes
 from sim.generator.access import ROBOT_CLEAR_M, body_area, home_floor
 from sim.generator.floor import Floor, Mask
 from sim.placing import find_spot
-from sim.reaching import REACH_M
+from sim.reaching import REACH_M, Refused, Stance, check_reach
+from sim.rover import MAST_FORWARD_M, MAST_TOP_M
 from sim.scene import Body, Room, Scene, Vec2
 from sim.truth import room_of
 from wire.catalogue import catalogue
+from wire.frames import bearing_rad
 from wire.messages.goal import Goal, Selector
 from wire.messages.truth import TruthTask
 
@@ -63,6 +66,8 @@ DESTINATIONS = (
 )
 SWITCHED = ("Television", "FloorLamp", "DeskLamp", "CoffeeMachine", "Toaster")
 OPENED = ("Microwave", "Fridge", "LaundryHamper")
+STANCES_APART, STANCES_NEEDED = 3, 3
+"""Of the places within reach of a thing every so many are tried, and so many must do."""
 LIKELY = ("Fridge", "GarbageCan")
 """Destinations that say the most about a thing."""
 
@@ -117,6 +122,7 @@ class _Home:
         walkable = self.floor.walkable(needed_m=ROBOT_CLEAR_M)
         assert walkable is not None, "a home has floor to walk on"
         self.walkable: Mask = walkable
+        self._structure = structure_boxes(scene)
 
     def of(self, kind: str, room: str | None = None) -> list[Body]:
         return [b for b in self.bodies if b.type == kind and (room is None or self.room(b) == room)]
@@ -151,6 +157,23 @@ class _Home:
         row, column = np.unravel_index(int(np.argmin(gap)), gap.shape)
         return (float(self.floor.x[row, column]), float(self.floor.y[row, column]))
 
+    def graspable(self, item: Body) -> bool:
+        """Whether there are places to stand from which the arm gets to it and nothing hides it from the robot's eye."""
+        box = body_box(item)
+        places = zip(self.floor.x[self.walkable].tolist(), self.floor.y[self.walkable].tolist(), strict=True)
+        near = [place for place in places if box.floor_gap_m(place) <= REACH_M][::STANCES_APART]
+        good = (place for place in near if self._sees(place, item))
+        return len(list(islice(good, STANCES_NEEDED))) == STANCES_NEEDED
+
+    def _sees(self, place_m: Vec2, item: Body) -> bool:
+        yaw_rad = bearing_rad(place_m, (item.position_m[0], item.position_m[1]))
+        x, y = place_m[0] + MAST_FORWARD_M * cos(yaw_rad), place_m[1] + MAST_FORWARD_M * sin(yaw_rad)
+        try:
+            check_reach(self.scene, Stance("", place_m, (x, y, MAST_TOP_M), (), self._structure), item)
+        except Refused:
+            return False
+        return True
+
     def fits(self, item: Body, receptacle: Body) -> bool:
         """Whether there is a free spot that an arm gets to."""
         centre = body_box(receptacle).centre_m
@@ -164,7 +187,9 @@ def _errand(home: _Home, rng: Random, used: AbstractSet[str]) -> Clause | None:
         kinds = [kind for kind, place in places.items() if kind in catalogue()[item.type].allowed_in]
         for kind in sorted(kinds, key=lambda k: rng.random() * (0.5 if k in LIKELY else 1.0)):
             place = places[kind]
-            if item.type not in used and item.parent != place.key and home.fits(item, place):
+            if item.type in used or item.parent == place.key or not home.graspable(item):
+                continue
+            if home.fits(item, place):
                 word = "on" if catalogue()[kind].receptacle_mode == "on" else "in"
                 return Clause(
                     f"put the {name_of(item.type)} {word} the {name_of(kind)}",
@@ -178,7 +203,9 @@ def _delivery(home: _Home, rng: Random, used: AbstractSet[str]) -> Clause | None
     """Bring a thing to another room that has somewhere to put it."""
     for item in _shuffled(home.items(), rng):
         for room in _shuffled(home.scene.rooms, rng):
-            if item.type not in used and home.room(item) != room.id and _welcomes(home, item, room):
+            if item.type in used or home.room(item) == room.id or not home.graspable(item):
+                continue
+            if _welcomes(home, item, room):
                 return Clause(
                     f"bring the {name_of(item.type)} to {_room_name(room)}",
                     Goal(predicate="at", subject=Selector(type=item.type), object=Selector(room=room.id)),

@@ -84,3 +84,9 @@ def test_a_planner_reads_the_same_goals(seed: int) -> None:
 def test_every_type_has_a_name_of_its_own() -> None:
     names = [name_of(kind) for kind in modelled_types()]
     assert len(set(names)) == len(names)
+
+
+def test_nobody_is_sent_for_what_cannot_be_grasped() -> None:
+    # In this home the only alarm clock stands behind a television, where no robot's eye gets to it.
+    scene = make_home(6)
+    assert all(goal.subject.type != "AlarmClock" for goal in make_task(scene, 6).goals)

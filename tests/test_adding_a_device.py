@@ -14,6 +14,7 @@ import pytest
 import devices
 from devices.device import Device
 from devices.goals_journal import open_journal
+from devices.quadruped.core import QuadrupedCore
 from devices.skill import Skill
 from devices.worker import Outcome, Pose
 from hub.coordinator import Coordinator
@@ -210,3 +211,8 @@ def test_a_card_with_another_id_than_its_process_is_refused(lift: ModuleType) ->
     mesh.add(lift.build(site, "lift-1"), "lift-2", "robot")
     with pytest.raises(CannotRun, match="process lift-2 serves the device lift-1 with a card of lift-1: build"):
         mesh.run(0.1)
+
+
+def test_a_quadrupeds_process_drives_no_other_kind() -> None:
+    with pytest.raises(CannotRun, match="lift-1 is a lift in the site file: a quadruped is driven here"):
+        QuadrupedCore(_site_of_the_page(), "lift-1", open_journal())

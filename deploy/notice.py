@@ -32,11 +32,11 @@ def table() -> str:
 def licence(package: str) -> str:
     """What a package says of itself: an SPDX expression where it has one, else its field, else its classifiers."""
     about = distribution(package).metadata
-    fields = about.get_all("License-Expression") or about.get_all("License") or [""]
-    if 0 < len(fields[0].strip()) <= _LONGEST_LICENCE:
+    fields: list[str] = about.get_all("License-Expression") or about.get_all("License") or []
+    if fields and 0 < len(fields[0].strip()) <= _LONGEST_LICENCE:
         return fields[0].strip()
-    classifiers = [c.rpartition(" :: ")[2] for c in about.get_all("Classifier") or () if c.startswith("License ::")]
-    return " or ".join(classifiers) or "none stated"
+    classifiers: list[str] = about.get_all("Classifier") or []
+    return " or ".join(c.rpartition(" :: ")[2] for c in classifiers if c.startswith("License ::")) or "none stated"
 
 
 def _needed() -> dict[str, set[str]]:

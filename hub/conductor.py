@@ -156,7 +156,7 @@ class Conductor:
         if not run.plan.complete:
             self._replan(task, "the search is over", now_s)
         elif good:
-            self._end(task, "done", "all goals hold", now_s)
+            self._end(task, "done", "all goals hold" if task.goals else "every step is done", now_s)
         else:
             missing = [g.text or g.predicate for g, h in zip(task.goals, task.holding, strict=True) if not h]
             self._failed(task, f"the plan is done, but not reached: {'; '.join(missing)}", now_s)

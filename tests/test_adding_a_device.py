@@ -157,30 +157,31 @@ def _site_of_the_page() -> Site:
     return parse_site(data | {"process": [*data["process"], *rows["process"]]}, "the page")
 
 
-def _desk(now_s: float) -> Sequence[ObjectObservation]:
-    return [seen("Desk", 2.0, 2.0, 0.4, "desk")]
+def _stand(now_s: float) -> Sequence[ObjectObservation]:
+    return [seen("TVStand", 2.0, 2.0, 0.3, "stand")]
 
 
 def test_the_device_of_the_page_is_asked_for_what_only_it_can_do(lift: ModuleType) -> None:
     site = _site_of_the_page()
     core = lift.build(site, "lift-1")
-    state = _asked(site, core, "do raise_desk on the desk height_m=1.1", _desk)
+    state = _asked(site, core, "do raise_stand on the TV stand height_m=1.1", _stand)
     assert state.status == "done", (state.reason, state.refusal, state.log)
+    assert state.reason == "every step is done"
     assert core.lift.height_m == pytest.approx(1.1)
-    assert any("lift-1: raise_desk" in line for line in state.log)
+    assert any("lift-1: raise_stand" in line for line in state.log)
 
 
 @pytest.mark.parametrize(
     ("instruction", "reason"),
     [
-        ("do raise_desk on the desk height_m=3", "height_m: Input should be less than or equal to 1.25"),
-        ("do raise_desk on the desk", "height_m is missing; it takes height_m, object"),
-        ("do lower_desk on the desk", "no robot here announces the skill lower_desk; .* raise_desk"),
+        ("do raise_stand on the TV stand height_m=3", "height_m: Input should be less than or equal to 1.25"),
+        ("do raise_stand on the TV stand", "height_m is missing; it takes height_m, object"),
+        ("do lower_stand on the TV stand", "no robot here announces the skill lower_stand; .* raise_stand"),
     ],
 )
 def test_the_device_of_the_page_says_what_it_cannot_do(lift: ModuleType, instruction: str, reason: str) -> None:
     site = _site_of_the_page()
-    state = _asked(site, lift.build(site, "lift-1"), instruction, _desk)
+    state = _asked(site, lift.build(site, "lift-1"), instruction, _stand)
     assert state.status in ("failed", "refused")
     assert re.search(reason, state.reason), state.reason
 

@@ -199,13 +199,6 @@ def test_the_code_of_the_page_keeps_the_rules_of_the_tree(name: str, rule: tuple
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_the_page_names_the_lines_of_the_project_file_as_they_are() -> None:
-    project = (ROOT / "pyproject.toml").read_text()
-    for line in (line for text in blocks("add-a-device.md", "toml") for line in text.splitlines()):
-        if "lift" in line and line.startswith(("all", "modules")):
-            assert line.replace(",lift", "").replace(', "devices.lift"', "") in project
-
-
 def test_a_card_with_another_id_than_its_process_is_refused(lift: ModuleType) -> None:
     site = _site_of_the_page()
     mesh = LoopbackMesh()

@@ -128,6 +128,7 @@ fmt: install
     {{ python }} -m ruff check --fix .
     {{ python }} -m ruff format .
     {{ python }} -m wire.protocol_page docs/protocol.md
+    {{ python }} -m deploy.notice
 
 # renew requirements.lock from pyproject.toml
 [group('develop')]

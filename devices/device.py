@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from devices.goals_journal import GoalsJournal
 from devices.reporter import Reporter
 from devices.worker import Outcome, Worker
-from wire.bus import Event, Node, Received, Request
+from wire.bus import CannotRun, Event, Node, Received, Request
 from wire.messages.command import (
     CancelRequest,
     CardRequest,
@@ -67,6 +67,7 @@ class Device:
     def step(self, now_s: float) -> None:
         """Work on the goal, or stand still; then say so."""
         if self._stepped_s is None:
+            self._check_names()
             self._hub_seen_s = now_s if self._hub_seen_s is None else self._hub_seen_s
             self._interrupt_left_over(now_s)
         passed_s = 0.0 if self._stepped_s is None else now_s - self._stepped_s
@@ -80,6 +81,15 @@ class Device:
         else:
             self._work(self._job, now_s, passed_s)
         self._tell(now_s)
+
+    def _check_names(self) -> None:
+        """The hub asks the process for the card and commands what the card names: all three must be one."""
+        card = self._worker.card(self._node.boot_id)
+        if not self._node.id == self.id == card.id:
+            raise CannotRun(
+                f"process {self._node.id} serves the device {self.id} with a card of {card.id}: "
+                "build the device and its card with the id of the process"
+            )
 
     def hub_lost(self, now_s: float) -> bool:
         return self._hub_seen_s is not None and now_s - self._hub_seen_s > self._lost_hub_s

@@ -8,7 +8,8 @@ from typing import Generic, TypeVar
 
 from pydantic import ValidationError
 
-from wire.messages.command import Command, SkillCard
+from wire.messages.command import Command
+from wire.messages.plan import SkillCard
 from wire.model import Message
 
 Run = TypeVar("Run", bound=Callable[..., object])
@@ -16,7 +17,8 @@ Run = TypeVar("Run", bound=Callable[..., object])
 
 @dataclass(frozen=True)
 class Skill(Generic[Run]):
-    """`run`'s docstring is what a planner reads; `parameters` are the fields of `Command` that it uses."""
+    """`run`'s docstring is what a planner reads; `parameters` are the fields of `Command` that it uses, and its own,
+    which come in `Command.params`."""
 
     name: str
     parameters: type[Message]
@@ -28,9 +30,10 @@ class Skill(Generic[Run]):
 
     def fault_of(self, command: Command) -> str:
         """Why the command's parameters do not suit, in a sentence; empty when they do."""
-        given = {name: getattr(command, name) for name in self.parameters.model_fields}
+        fields = self.parameters.model_fields.keys() & Command.model_fields.keys()
+        given = {name: value for name in fields if (value := getattr(command, name)) is not None}
         try:
-            self.parameters.model_validate({name: value for name, value in given.items() if value is not None})
+            self.parameters.model_validate(given | command.params)
         except ValidationError as error:
             faults = "; ".join(f"{'.'.join(map(str, e['loc'])) or 'parameters'}: {e['msg']}" for e in error.errors())
             return f"{self.name}: {faults}"

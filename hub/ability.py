@@ -1,6 +1,7 @@
 """What a robot that is there can do: what plans are checked against and nodes are given out by."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import inf
 
 from wire.catalogue import catalogue
@@ -8,10 +9,12 @@ from wire.catalogue import catalogue
 
 @dataclass(frozen=True)
 class Ability:
-    """`payload_kg`: the heaviest that it lifts, infinite when its card does not say."""
+    """`payload_kg`: the heaviest that it lifts, infinite when its card does not say. `parameters`: of its skills, each
+    a JSON schema."""
 
     skills: tuple[str, ...]
     payload_kg: float = inf
+    parameters: Mapping[str, str] = field(default_factory=dict)
 
     def lifts(self, type: str) -> bool:
         """Whether a typical thing of this type is light enough; one of unknown weight is tried."""

@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 
 from hub.ability import Ability, mass_kg
+from hub.announced import parameter_fault
 from hub.floor import FloorPlan
 from hub.replay import replay
 from wire.catalogue import PROP_FLAG, catalogue
-from wire.messages.plan import Action, Plan, PlanNode
+from wire.messages.plan import KNOWN_ACTIONS, Action, Plan, PlanNode
 from wire.messages.world import ObjectState, WorldState
 
 NEEDS_OBJECT: frozenset[Action] = frozenset(
@@ -99,6 +100,11 @@ def _hands(node: PlanNode, objects: dict[str, ObjectState], abilities: Mapping[s
             most_kg = max(has.payload_kg for has in abilities.values())
             weighs = f"a {load.type} weighs about {mass_kg(load.type):g} kg"
             return [f"node {node.id} (pickup): {weighs}, and no robot lifts more than {most_kg:g} kg"]
+    if node.action not in KNOWN_ACTIONS:
+        wrong = {robot: parameter_fault(node, abilities[robot].parameters.get(node.action, "{}")) for robot in able}
+        able = [robot for robot in able if not wrong[robot]]
+        if not able:
+            return [f"node {node.id} ({node.action}): {next(iter(wrong.values()))}"]
     preferred = node.preferred_robot
     if preferred is not None and preferred in abilities and preferred not in able:
         return [f"node {node.id} prefers {preferred}, which cannot {node.action}; {', '.join(sorted(able))} can"]

@@ -48,8 +48,7 @@ class Conductor:
         self._world, self._dispatch, self._journal, self._voice = world, dispatch, journal, voice
         self._epoch, self._max_fails = epoch, max_fails
         self.task: Task | None = None
-        self._asked = False
-        self._ask_at_s = 0.0
+        self._asked, self._ask_at_s = False, 0.0
         self._halting: Then | None = None
         self._halted_s = self._moved_s = 0.0
         self._needless: set[str] = set()
@@ -90,6 +89,7 @@ class Conductor:
             instruction=task.instruction,
             goals=task.goals or None,
             world=self._world.snapshot(now_s),
+            skills=self._world.fleet.skills(),
             failures=tuple(text[:2000] for text in task.failures[-8:]),
             now_s=now_s,
         )
@@ -156,7 +156,7 @@ class Conductor:
         if not run.plan.complete:
             self._replan(task, "the search is over", now_s)
         elif good:
-            self._end(task, "done", "all goals hold", now_s)
+            self._end(task, "done", "all goals hold" if task.goals else "every step is done", now_s)
         else:
             missing = [g.text or g.predicate for g, h in zip(task.goals, task.holding, strict=True) if not h]
             self._failed(task, f"the plan is done, but not reached: {'; '.join(missing)}", now_s)

@@ -4,7 +4,7 @@ from hub.facts import handle
 from hub.records import Thing
 from hub.world import World
 from wire.messages.command import Result
-from wire.messages.plan import Action, PlanNode
+from wire.messages.plan import KNOWN_ACTIONS, Action, PlanNode
 
 CHANGES: dict[Action, tuple[str, bool]] = {
     "open": ("isOpen", True),
@@ -20,7 +20,9 @@ _SURE_BELIEF = 3.5
 
 
 def apply(world: World, node: PlanNode, robot: str, result: Result) -> None:
-    """Take the end of a goal into W."""
+    """Take the end of a goal into W. What an action changes that is none of the known, observations will say."""
+    if node.action not in KNOWN_ACTIONS:
+        return
     if result.status == "done" or result.code == "already":
         _succeeded(world, node, robot, result)
     elif result.status == "failed":

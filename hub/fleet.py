@@ -6,6 +6,7 @@ from hub.ability import Ability
 from hub.floor import FloorPlan
 from wire.frames import yaw_deg
 from wire.messages.command import DeviceCard, RobotReport
+from wire.messages.plan import SkillCard
 from wire.messages.world import RobotState, RobotStatus
 from wire.model import Vec2, Vec3
 
@@ -75,7 +76,8 @@ class Robot:
     @property
     def ability(self) -> Ability:
         payload_kg = self.card.payload_kg if self.card is not None else 0.0
-        return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf)
+        parameters = {skill.name: skill.parameters for skill in self.card.skills} if self.card is not None else {}
+        return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf, parameters)
 
     @property
     def radius_m(self) -> float:
@@ -137,6 +139,11 @@ class Fleet:
 
     def abilities(self) -> dict[str, Ability]:
         return {r.id: r.ability for r in self.here()}
+
+    def skills(self) -> tuple[SkillCard, ...]:
+        """What those who are there have announced, each skill once."""
+        there = sorted(self.here(), key=lambda r: r.id)
+        return tuple(dict.fromkeys(skill for r in there if r.card is not None for skill in r.card.skills))
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

@@ -34,6 +34,7 @@ def order(
         room=node.room,
         point_m=node.point_m,
         looking_for=node.looking_for,
+        params=node.params,
         valid_until_s=now_s + _START_WITHIN_S,
         timeout_s=_WORK_S.get(node.action, _HANDS_S) + min(walk_m, 200.0) / _SLOWEST_MPS,
     )

@@ -34,13 +34,14 @@ class SimCore:
         if site.sim is None:
             raise SiteError(f"{site.name}: there is no [sim] table; add one with a seed, or start no sim process")
         self.scene = scene
-        starts = [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in site.robot]
+        walkers = [robot for robot in site.robot if robot.kind == "quadruped"]  # what else there is brings its own body
+        starts = [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in walkers]
         self.physics = Physics(scene, starts, site.sim.legs)
         self._renderer = renderer
         self._step_s = site.clock.step_s
         self._substeps = _substeps(site)
-        self._legs = {r.id: Locomotion(r.id, self.physics, site.sim.seed, self._step_s) for r in site.robot}
-        self._arms = {r.id: Arm(r.id, scene, self.physics) for r in site.robot}
+        self._legs = {r.id: Locomotion(r.id, self.physics, site.sim.seed, self._step_s) for r in walkers}
+        self._arms = {r.id: Arm(r.id, scene, self.physics) for r in walkers}
         self._cameras = Cameras(site, self.physics, self._legs)
         self._appliances = Appliances(scene) if site.sim.smart_appliances else None
         self._faults = Faults(site.sim.fault, site.sim.seed)

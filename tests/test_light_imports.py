@@ -1,11 +1,17 @@
 """No process imports what its role does not need: `sys.modules` of each, right after its imports."""
 
+import re
 import subprocess
 import sys
+import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).resolve().parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+EXTRAS = PROJECT["project"]["optional-dependencies"]
 HEAVY = {"numpy", "cv2", "scipy", "pybullet", "moderngl", "rerun", "pyarrow", "torch", "onnx", "onnxruntime", "lark", "typer",
          "rich", "supervisor", "matplotlib", "ollama", "mavsdk", "pymavlink"}  # fmt: skip
 MAY_IMPORT = {
@@ -13,18 +19,45 @@ MAY_IMPORT = {
     "wire.recorder": set(),
     "hub": {"numpy"},
     "planners": {"lark", "rapidfuzz"},
-    "devices.cctv": {"numpy", "cv2", "onnxruntime"},
-    "devices.quadruped": {"numpy", "cv2", "onnxruntime"},
     "hub.view": {"numpy", "rerun", "pyarrow"},
     "sim": {"numpy", "cv2", "pybullet", "moderngl"},
 }
+DEVICES = sorted(path.parent.name for path in (ROOT / "devices").glob("*/__main__.py"))
+
+
+def packages_of(extra: str) -> set[str]:
+    """Names of the packages that an extra brings, those of the extras in it too."""
+    found: set[str] = set()
+    for requirement in EXTRAS[extra]:
+        name, inner = re.match(r"([\w.-]+)(?:\[([\w,]+)\])?", requirement).groups()
+        found |= {p for e in inner.split(",") for p in packages_of(e)} if name == "r2x" else {name.lower()}
+    return found
+
+
+def imports_heavy(module: str) -> set[str]:
+    main = f"{module}.__main__" if (ROOT / module.replace(".", "/") / "__main__.py").exists() else module
+    code = f"import sys, {main}; print(*sorted(set(m.split('.')[0] for m in sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return set(done.stdout.split()) & HEAVY
 
 
 @pytest.mark.parametrize("module", sorted(MAY_IMPORT))
 def test_a_role_imports_only_what_it_needs(module: str) -> None:
-    root = Path(__file__).resolve().parents[1]
-    main = f"{module}.__main__" if (root / module.replace(".", "/") / "__main__.py").exists() else module
-    code = f"import sys, {main}; print(*sorted(set(m.split('.')[0] for m in sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=root, timeout=60)
-    assert done.returncode == 0, done.stderr
-    assert set(done.stdout.split()) & HEAVY <= MAY_IMPORT[module]
+    assert imports_heavy(module) <= MAY_IMPORT[module]
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_a_device_imports_only_what_its_extra_names(device: str) -> None:
+    assert device in EXTRAS, f"pyproject.toml has no extra {device}: name the packages that devices/{device} needs"
+    (everything,) = EXTRAS["all"]
+    assert device in re.findall(r"\w+", everything), f"the extra `all` in pyproject.toml leaves {device} out"
+    packages = packages_of(device)
+    from_extra = {m for m, names in packages_distributions().items() if packages & {name.lower() for name in names}}
+    assert imports_heavy(f"devices.{device}") <= from_extra
+
+
+def test_the_contract_of_independence_names_every_device() -> None:
+    contracts = PROJECT["tool"]["importlinter"]["contracts"]
+    (devices,) = [c for c in contracts if c["type"] == "independence"]
+    assert sorted(devices["modules"]) == [f"devices.{device}" for device in DEVICES]

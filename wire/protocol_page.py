@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 
 from wire.codec import max_bytes
 from wire.keys import PRESENCE_PATH, ROLES, SERVICES, TOPICS, Role
+from wire.messages.plan import KNOWN_ACTIONS
 from wire.model import Message
 
 INTRODUCTION = f"""# The protocol
@@ -27,6 +28,10 @@ that is there holds the liveliness token `{PRESENCE_PATH}`.
 
 In lockstep a process is handed, at tick n, what the owner of the clock sent up to tick n and what everybody else sent
 before tick n, sorted by topic, id, sender and count: the same in every run.
+
+An action of a plan or a command is the name of a skill. The hub and the planners know the effects of
+{", ".join(f"`{action}`" for action in sorted(KNOWN_ACTIONS))}; any other may be used that a robot announces, with the
+parameters of its announced schema.
 """
 
 

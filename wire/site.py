@@ -56,7 +56,9 @@ class Camera(Message):
 
 class Robot(Message):
     id: Id
-    kind: Literal["quadruped"]
+    """That of its process."""
+    kind: Word
+    """What it is: `quadruped` walks on `devices.quadruped`; any other word is that of your own device."""
     start_m: Vec2
     start_yaw_deg: float = 0.0
     lost_hub_s: float = Field(default=2.0, gt=0.0)

@@ -17,6 +17,7 @@ from wire.messages.observation import ObservationBatch
 from wire.model import Message
 from wire.site import Site
 
+KIND = "quadruped"
 CONTROL_S = 0.05
 EARLY_S = 1e-6
 
@@ -28,6 +29,8 @@ class QuadrupedCore:
         row = next((robot for robot in site.robot if robot.id == id), None)
         if row is None:
             raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
+        if row.kind != KIND:
+            raise CannotRun(f"robot {id} is a {row.kind} in the site file: a {KIND} is driven here, run its own module")
         self._id = id
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._body = Body(id, FloorMap(site), sighted=eyes is not None)

@@ -2,20 +2,26 @@
 
 from planners.scripted.goals import TEXT_LIMIT, read_goals
 from planners.scripted.syntax import Unclear
+from planners.scripted.told import read_told
 from planners.tasks.planning import TaskPlanner
 from wire.messages.plan import PlanReply, PlanRequest, Refusal
 from wire.site import Site
+
+NAME = "scripted"
 
 
 class ScriptedPlanner:
     """See planners.planner.Planner."""
 
     def __init__(self, site: Site) -> None:
-        self._tasks = TaskPlanner(site, "scripted")
+        self._tasks = TaskPlanner(site, NAME)
 
     def make_plan(self, request: PlanRequest) -> PlanReply:
         """Goals already settled for the task are planned for as they are; else the instruction is read."""
         try:
+            told = read_told(request, NAME)
+            if told is not None:
+                return PlanReply(task=request.task, epoch=request.epoch, plan=told)
             goals = request.goals if request.goals is not None else read_goals(request.instruction, request.world)
         except Unclear as unclear:
             refusal = Refusal(

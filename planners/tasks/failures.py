@@ -7,14 +7,12 @@ wording is relied on.
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from typing import get_args
 
-from wire.messages.plan import Action
+from wire.messages.plan import KNOWN_ACTIONS
 
 GIVE_UP = 3
 """So many failures of one action on one thing, and it is not tried again."""
 _TOKEN = re.compile(r"[a-z][a-z0-9_-]*")
-_ACTIONS = frozenset(get_args(Action))
 
 
 class Failures:
@@ -27,8 +25,8 @@ class Failures:
         names = set(robots)
         for sentence in sentences:
             words = _TOKEN.findall(sentence.lower())
-            actions = [w for w in words if w in _ACTIONS][:1]
-            about = dict.fromkeys(w for w in words if w not in _ACTIONS and w not in names)
+            actions = [w for w in words if w in KNOWN_ACTIONS][:1]
+            about = dict.fromkeys(w for w in words if w not in KNOWN_ACTIONS and w not in names)
             for action in actions:
                 for word in about:
                     self._counts[action, word] += 1

@@ -51,7 +51,7 @@ class TaskPlanner:
             why = "; ".join(dict.fromkeys(work.hopeless)) or "nothing more can be done"
             return _refused(request, why, unreached[0].text if unreached else "")
         plan = Plan(
-            id=_plan_id(request),
+            id=plan_id(request),
             task=request.task,
             planner=self._name,
             goals=settled,
@@ -64,7 +64,8 @@ class TaskPlanner:
         return PlanReply(task=request.task, epoch=request.epoch, plan=plan)
 
 
-def _plan_id(request: PlanRequest) -> str:
+def plan_id(request: PlanRequest) -> str:
+    """Another one for each time that a task is planned."""
     return f"p{request.epoch}-{request.world.seq}-{len(request.failures)}"[:32]
 
 

@@ -1,7 +1,8 @@
 """A small flat and the messages of its inhabitants, for the hub's tests."""
 
-from wire.messages.command import DeviceCard, RobotReport, SkillCard
+from wire.messages.command import DeviceCard, RobotReport
 from wire.messages.observation import ObjectObservation, ObservationBatch, View
+from wire.messages.plan import SkillCard
 from wire.site import Camera, Door, Process, Robot, Room, Site, Wall
 
 ACTIONS = ("goto", "explore", "inspect", "pickup", "put", "open", "close", "toggle_on", "toggle_off", "slice", "clean")

@@ -6,7 +6,7 @@ import pytest
 
 from planners.core import build
 from planners.planner import PLANNERS
-from tests.planners.test_tasks import furnished
+from tests.planners.test_tasks import furnished, hub_agrees
 from tests.planners.toy import site
 from wire.bus import CannotRun
 from wire.loopback import LoopbackMesh
@@ -16,6 +16,11 @@ from wire.messages.plan import PlanReply, PlanRequest
 
 @pytest.mark.parametrize("name", PLANNERS)
 def test_every_planner_answers_over_the_mesh(name: str) -> None:
+    check_row(name)
+
+
+def check_row(name: str) -> PlanReply:
+    """What every row of the table must do: plan under its name what the hub agrees to, or refuse with a reason."""
     mesh = LoopbackMesh()
     mesh.add(build(site(), "planner", name), "planner", "planner")
     world = furnished(1, ("kitchen",)).world()
@@ -23,8 +28,17 @@ def test_every_planner_answers_over_the_mesh(name: str) -> None:
     reply = mesh.call("make_plan", request, role="hub")
     assert isinstance(reply, PlanReply)
     assert (reply.task, reply.epoch) == ("t-9", 4)
-    assert reply.plan is not None
-    assert reply.plan.planner == name
+    assert (reply.plan is None) != (reply.refusal is None)
+    if reply.plan is not None:
+        assert reply.plan.planner == name
+        hub_agrees(reply.plan, world)
+    else:
+        assert reply.refusal.reason
+    return reply
+
+
+def test_the_scripted_planner_plans_it() -> None:
+    assert check_row("scripted").plan is not None
 
 
 def test_an_unknown_planner_is_named() -> None:

@@ -33,6 +33,16 @@ def test_a_robot_follows_a_velocity_until_it_times_out(make_mesh):
     assert core.physics.robots["dog-1"].motion().speed_mps == pytest.approx(0.0, abs=1e-9)
 
 
+def test_only_quadrupeds_get_a_body():
+    scene = make_small_home()
+    site = make_small_site("dog-1")
+    lift = site.robot[0].model_copy(update={"id": "lift-1", "kind": "lift"})
+    site = site.model_copy(update={"robot": (*site.robot, lift)})
+    core = SimCore(site, scene, TruthTask(instruction="", goals=()), None)
+    assert list(core.physics.robots) == ["dog-1"]
+    core.stop()
+
+
 def test_streams_come_at_their_rates_with_consecutive_numbers(make_mesh):
     dog = Listener("dog-1")
     mesh, _ = make_mesh(dog)

@@ -45,7 +45,8 @@ def _value(kind: Any, bounds: dict[str, Any], depth: int) -> st.SearchStrategy[A
         return st.sampled_from(args)
     if origin in (Union, types.UnionType):
         kinds = [a for a in args if a is not type(None) and not (_is_message(a) and depth >= DEEPEST)]
-        return st.one_of(st.none(), *(_value(a, bounds, depth) for a in kinds))
+        empty = [st.none()] if type(None) in args else []
+        return st.one_of(*empty, *(_value(a, bounds, depth) for a in kinds))
     if origin is tuple:
         return _tuple(args, bounds, depth)
     if origin is dict:

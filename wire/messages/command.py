@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from wire.messages.plan import Action
+from wire.messages.plan import Action, Param, SkillCard
 from wire.messages.world import RobotStatus
 from wire.model import Id, Message, Stamp, Text, Vec2, Vec3, Word
 
@@ -35,6 +35,8 @@ class Command(Message):
     room: Id | None = None
     point_m: Vec2 | None = None
     looking_for: tuple[Word, ...] = ()
+    params: dict[Word, Param] = {}
+    """The skill's own parameters, as its card announces them."""
     valid_until_s: Stamp
     """Not started after this."""
     timeout_s: float = Field(gt=0.0)
@@ -151,19 +153,11 @@ class TrafficOrder(Message):
     because: Text = ""
 
 
-class SkillCard(Message):
-    """One skill, as announced: its docstring is what a planner reads."""
-
-    name: Word
-    doc: Text
-    parameters: Text
-    """JSON schema."""
-
-
 class DeviceCard(Message):
     """Who a device is and what it can do."""
 
     id: Id
+    """That of its process in the site file: commands are sent to this id."""
     kind: Word
     boot_id: str
     skills: tuple[SkillCard, ...] = ()

@@ -1,17 +1,32 @@
 """Plans as dependency graphs: equations 6 and 7 of the first paper."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from wire.messages.goal import Goal
 from wire.messages.world import WorldState
 from wire.model import Id, Message, Stamp, Text, Vec2, Word
 
-Action = Literal[
-    "goto", "explore", "inspect", "pickup", "put", "open", "close", "toggle_on", "toggle_off", "slice", "clean"
-]
+Action = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_]{0,31}$")]
+"""The name of a skill: one of `KNOWN_ACTIONS`, or any other that a robot announces."""
+KNOWN_ACTIONS: frozenset[Action] = frozenset(
+    {"goto", "explore", "inspect", "pickup", "put", "open", "close", "toggle_on", "toggle_off", "slice", "clean"}
+)
+"""Those whose preconditions and effects the hub and the planners know. What any other action changes, only
+observations tell."""
+Param = bool | int | float | Text
+"""A parameter that only one skill has, such as a height."""
 NodeStatus = Literal["pending", "running", "done", "failed", "cancelled"]
+
+
+class SkillCard(Message):
+    """One skill, as announced: its docstring is what a planner reads."""
+
+    name: Action
+    doc: Text
+    parameters: Text
+    """JSON schema: fields of `Command` (`target`, `item`, `room`, `point_m`, `looking_for`) and the skill's own."""
 
 
 class PlanNode(Message):
@@ -28,6 +43,8 @@ class PlanNode(Message):
     point_m: Vec2 | None = None
     looking_for: tuple[Word, ...] = ()
     """For `explore`: types whose sighting ends the search."""
+    params: dict[Word, Param] = {}
+    """What the skill takes besides: the parameters of its own in its announced schema."""
     req_skills: tuple[Word, ...] = ()
     preferred_robot: Id | None = None
     same_robot_as: Id | None = None
@@ -72,6 +89,8 @@ class PlanRequest(Message):
     goals: tuple[Goal, ...] | None = None
     """Goals settled by an earlier reply for the same task: plan for these, do not read the words again."""
     world: WorldState
+    skills: tuple[SkillCard, ...] = ()
+    """What the robots that are there have announced, each once; who has which stands in `world.robots`."""
     failures: tuple[Text, ...] = ()
     now_s: Stamp
 

@@ -28,6 +28,8 @@ class Pose:
     action_steps: int
     holding: bool
     standing_by_order: bool
+    holding_type: str | None = None
+    """What the gripper takes the thing in the hand for, if it can tell."""
 
 
 class Worker(Protocol):

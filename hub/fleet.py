@@ -23,6 +23,7 @@ class Robot:
         "card",
         "goal_id",
         "holding",
+        "holding_type",
         "id",
         "inventory",
         "path_m",
@@ -43,6 +44,7 @@ class Robot:
         self.status: RobotStatus = "lost"
         self.present = False
         self.holding = False
+        self.holding_type: str | None = None
         self.inventory: str | None = None
         self.goal_id: str | None = None
         self.path_m: tuple[Vec2, ...] = ()
@@ -63,6 +65,11 @@ class Robot:
     def ability(self) -> Ability:
         payload_kg = self.card.payload_kg if self.card is not None else 0.0
         return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf)
+
+    @property
+    def full_handed(self) -> bool:
+        """Whether it carries something, known or not."""
+        return self.holding or self.inventory is not None
 
     @property
     def radius_m(self) -> float:
@@ -86,7 +93,7 @@ class Fleet:
         robot = self.robot(report.robot)
         robot.position_m, robot.yaw_rad = report.position_enu_m, report.yaw_rad
         robot.status, robot.holding, robot.goal_id = report.status, report.holding, report.goal_id
-        robot.path_m = report.path_m
+        robot.path_m, robot.holding_type = report.path_m, report.holding_type
         robot.travelled_m, robot.action_steps = report.travelled_m, report.action_steps
         robot.stamp_s, robot.present = report.stamp_s, True
         return robot

@@ -121,6 +121,7 @@ class QuadrupedWorker:
             action_steps=body.action_steps,
             holding=body.holding,
             standing_by_order=not body.may_move,
+            holding_type=body.holding_type,
         )
 
     @property

@@ -1,6 +1,6 @@
 """A hub that is killed at any moment around a grasp goes on: no step twice, nothing forgotten that is in a hand."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +10,7 @@ from hub.world import World
 from tests.hub.home import Flat
 from tests.hub.test_episode import fetch
 from tests.hub.toys import ToyRobot
+from wire.messages.command import Command
 from wire.messages.observation import Absence, ObjectObservation
 from wire.messages.operator import ControlRequest, TaskQuery, TaskState
 
@@ -79,11 +80,16 @@ def test_killed_at_every_tick_around_a_grasp(action: str, away_s: float, says_go
         assert state.fails == 0, (tick, state)
 
 
+def _once(action: str) -> Callable[[Command], str | None]:
+    """Has an action fail the first time."""
+    failing = iter(["blocked"])
+    return lambda command: next(failing, None) if command.action == action else None
+
+
 def test_killed_at_every_tick_around_a_failure(tmp_path: Path) -> None:
     """What was to be planned anew is planned anew at once, and counts once."""
     for tick in range(ticks_until("pickup") - 2, ticks_until("pickup") + 8):
-        failing = iter(["blocked"])
-        home = DarkFlat(tmp_path / f"{tick}.db", fail=lambda c: next(failing, None) if c.action == "pickup" else None)
+        home = DarkFlat(tmp_path / f"{tick}.db", fail=_once("pickup"))
         home.begin()
         for _ in range(tick):
             home.mesh.tick()

@@ -114,8 +114,7 @@ class Conductor:
             run.start(step, robot.id, goal_id, now_s)
             command = order(step, robot, goal_id, self._epoch, self._world.things, self._dispatch, now_s)
             body = f"{goal_id} {robot.id} {step.node.id} {step.node.action}"
-            about = step.node.object or step.node.room or step.node.point_m
-            self._ledger.keep(task, now_s, "command", body, line=f"{body} {about}")
+            self._ledger.keep(task, now_s, "command", body, line=f"{body} {_about(step, run)}")
             self._voice.command(command)
             self._moved_s = now_s
         if not running and now_s - self._moved_s > _STUCK_S:
@@ -164,7 +163,9 @@ class Conductor:
             if task.watch is not None and named & {other.node.object, other.node.item}:
                 task.watch.refresh(other)
         task.say(now_s, f"{step.robot or 'nobody'}: {step.node.action} {step.node.object or step.node.room or ''} done")
-        self._ledger.keep(task, now_s, "node", f"{step.node.id} done", remember=True)
+        body = f"{step.node.id} done"
+        line = f"{body}: {step.robot or 'nobody'} {step.node.action} {_about(step, task.run)}"
+        self._ledger.keep(task, now_s, "node", body, line=line, remember=True)
 
     def changed(self, ids: Sequence[str], now_s: float) -> None:
         """IoTUpdate: things changed in W. Halt when that touches the plan."""
@@ -236,11 +237,14 @@ class Conductor:
             task.status = "paused"
             self._ledger.keep(task, now_s, "pause", task.id)
         else:
-            self._replan(task, task.failures[-1] if task.failures else "", now_s)
+            self._replan(task, task.failures[-1] if task.failures else "all robots stand still", now_s)
 
     def resume(self, now_s: float) -> None:
         """Go on after a pause, with a fresh plan."""
-        if self.task is not None and self.task.status == "paused":
+        if self.task is not None and self.task.halting == "pause":
+            self.task.halting = "replan"
+            self._ledger.keep(self.task, now_s, "resume", self.task.id)
+        elif self.task is not None and self.task.status == "paused":
             self._replan(self.task, "resumed", now_s)
 
     def _replan(self, task: Task, reason: str, now_s: float) -> None:
@@ -260,3 +264,12 @@ class Conductor:
         task.say(now_s, f"{status}: {reason}")
         task.judge(self._world.snapshot(now_s))
         self._ledger.keep(task, now_s, "end", f"{status}: {reason}", remember=True)
+
+
+def _about(step: Step, run: PlanRun) -> str:
+    """What a step is about, for people."""
+    node = step.node
+    id = node.item if node.action == "put" else node.object
+    if id is not None:
+        return f"{run.types.get(id, '')} {id}".strip()
+    return node.room or (f"({node.point_m[0]:g}, {node.point_m[1]:g})" if node.point_m is not None else "")

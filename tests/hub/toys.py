@@ -60,6 +60,8 @@ class ToyRobot:
         self.results: list[Result] = []
         self.holding = False
         self.holding_type: str | None = None
+        self.deaf = False
+        """It does not hear when it is told to stop."""
         self.walked = 0.0
         self.seq = 0
         self.epoch = 0
@@ -87,7 +89,7 @@ class ToyRobot:
         if isinstance(message, GoalsRequest):
             return GoalsReply(robot=self.id, boot_id="b", epoch=self.epoch, goals=tuple(self.records.values()))
         if isinstance(message, CancelRequest):
-            if self.command is not None and message.goal_id in (None, self.command.goal_id):
+            if self.command is not None and not self.deaf and message.goal_id in (None, self.command.goal_id):
                 self._end("cancelled", "cancelled", now_s)
             return CommandAck(goal_id=message.goal_id or "", accepted=True)
         assert isinstance(message, Command)

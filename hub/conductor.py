@@ -41,7 +41,7 @@ class Conductor:
     def begin(self, task: Task, now_s: float) -> None:
         """Take on a task, new or from the journal."""
         self.task = task
-        self._planning.plan_from(now_s)
+        self._planning.begin(now_s)
         self._moved_s = self._halted_s = now_s
         if task.run is None:
             self._world.begin_task()

@@ -115,9 +115,9 @@ class Fleet:
         return silent
 
     def met(self, waited_s: float) -> bool:
-        """Whether every robot has announced itself; one that never does is not waited for."""
+        """Whether every robot has announced itself and heard of the hub; one that never does is not waited for."""
         there = self.here()
-        return waited_s > _MEET_S or (bool(there) and all(r.card is not None for r in there))
+        return waited_s > _MEET_S or (bool(there) and all(r.card is not None and r.status != "lost" for r in there))
 
     def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""

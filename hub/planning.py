@@ -13,7 +13,12 @@ class Planning:
     def __init__(self, world: World, voice: Voice, epoch: int) -> None:
         self._world, self._voice, self._epoch = world, voice, epoch
         self._asked = False
-        self._due_s = 0.0
+        self._due_s = self._begun_s = 0.0
+
+    def begin(self, now_s: float) -> None:
+        """A task is taken on, by this run of the hub: robots are given time to announce themselves."""
+        self._begun_s = now_s
+        self.plan_from(now_s)
 
     def plan_from(self, due_s: float) -> None:
         """A plan is wanted, not before `due_s`; what was asked before is not waited for."""
@@ -25,7 +30,7 @@ class Planning:
 
     def ask_if_due(self, task: Task, now_s: float) -> None:
         """Ask once, when every robot has announced itself."""
-        if self._asked or now_s < self._due_s or not self._world.fleet.met(now_s - task.started_s):
+        if self._asked or now_s < self._due_s or not self._world.fleet.met(now_s - self._begun_s):
             return
         self._asked = True
         task.rename(self._world.things)

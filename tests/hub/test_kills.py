@@ -8,22 +8,30 @@ import pytest
 
 from hub.world import World
 from tests.hub.home import Flat
+from tests.hub.scenes import card, flat, report
 from tests.hub.test_episode import fetch
 from tests.hub.toys import ToyRobot
 from wire.messages.command import Command
 from wire.messages.observation import Absence, ObjectObservation
 from wire.messages.operator import ControlRequest, TaskQuery, TaskState
+from wire.messages.plan import PlanReply, PlanRequest, Refusal
 
 SEEN_UNTIL_S = 3.0
 AROUND = 16
 """Ticks before and after the end of a grasp: the whole of its work, its report, the next command."""
 
 
+def fetch_if_anybody_is_there(request: PlanRequest) -> PlanReply:
+    if request.world.robots:
+        return fetch(request)
+    return PlanReply(task=request.task, epoch=request.epoch, refusal=Refusal(reason="no robot is there"))
+
+
 class DarkFlat(Flat):
     """Nobody looks at anything after the task was asked for; the camera may say that the apple has gone."""
 
     def __init__(self, journal: Path | None = None, says_gone: bool = False, fail=lambda c: None) -> None:
-        super().__init__(fetch, journal, fail)
+        super().__init__(fetch_if_anybody_is_there, journal, fail)
         self.camera.gone = self._gone if says_gone else lambda now_s: ()
 
     def _look(self, now_s: float) -> Sequence[ObjectObservation]:
@@ -78,6 +86,24 @@ def test_killed_at_every_tick_around_a_grasp(action: str, away_s: float, says_go
         assert state.status == "done", (tick, state)
         assert sorted(done) == ["open", "pickup", "put"], (tick, state)
         assert state.fails == 0, (tick, state)
+
+
+def test_killed_while_it_plans(tmp_path: Path) -> None:
+    """It does not plan for an empty house because nobody has announced himself yet."""
+    for tick in range(4):
+        state, done = killed(tmp_path / f"{tick}.db", tick, 10.0, says_gone=False)
+        assert (state.status, state.fails) == ("done", 0), (tick, state)
+        assert sorted(done) == ["open", "pickup", "put"], (tick, state)
+
+
+def test_robots_that_missed_the_hub_are_waited_for() -> None:
+    world = World(flat())
+    assert not world.fleet.met(1.0)
+    world.report_robot(report("dog-1", 1.0, 1.0, 0.0, status="lost"))
+    world.fleet.take_card(card("dog-1"))
+    assert not world.fleet.met(1.0), "it has not heard of the hub again, and counts for nothing in plans"
+    world.report_robot(report("dog-1", 1.0, 1.0, 0.1))
+    assert world.fleet.met(1.0)
 
 
 def _once(action: str) -> Callable[[Command], str | None]:

@@ -100,3 +100,16 @@ def test_who_holds_something_unknown_takes_nothing_more() -> None:
     run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=(TAKE,)), {})
     dispatch = Dispatch(world.floor, world.things)
     assert dispatch.match(run, run.ready(0.0), world.fleet.here(), frozenset(), 0.0) == []
+
+
+def test_who_has_the_knife_slices() -> None:
+    world = World(flat())
+    for id, x, type in (("dog-1", 1.0, "Mug"), ("dog-2", 6.0, "Knife")):
+        world.report_robot(report(id, x, 1.0, 0.0, holding=True))
+        world.fleet.take_card(card(id))
+        world.fleet.robot(id).inventory = world.things.new(type, (x, 1.0, 0.6), 0.0).id
+    cut = PlanNode(id="a", action="slice", object="obj-3")
+    run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=(cut,)), {})
+    dispatch = Dispatch(world.floor, world.things)
+    matched = dispatch.match(run, run.ready(0.0), world.fleet.here(), frozenset(), 0.0)
+    assert [robot.id for _, robot in matched] == ["dog-2"]

@@ -33,6 +33,7 @@ class Reporter:
             yaw_rad=pose.yaw_rad,
             status=status,
             holding=pose.holding,
+            holding_type=pose.holding_type,
             goal_id=goal_id,
             path_m=pose.path_m,
             travelled_m=pose.travelled_m,

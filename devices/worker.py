@@ -30,6 +30,8 @@ class Pose:
     standing_by_order: bool
     held_up: bool = False
     """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
+    holding_type: str | None = None
+    """What the gripper takes the thing in the hand for, if it can tell."""
 
 
 class Worker(Protocol):

@@ -6,6 +6,8 @@ from graphlib import CycleError, TopologicalSorter
 from hub.ability import Ability, mass_kg
 from hub.announced import parameter_fault
 from hub.floor import FloorPlan
+from hub.grasps import grasp_faults
+from hub.names import name_faults
 from hub.replay import replay
 from wire.catalogue import PROP_FLAG, catalogue
 from wire.messages.plan import KNOWN_ACTIONS, Action, Plan, PlanNode
@@ -32,12 +34,17 @@ def faults(plan: Plan, world: WorldState, abilities: Mapping[str, Ability], floo
     if found:
         return found
     objects = {o.id: o for o in world.objects}
+    robots = {r.id for r in world.robots} | set(abilities)
     for node in plan.nodes:
-        found += _fields(node, objects, floor) + _hands(node, objects, abilities)
+        names = name_faults(plan, node, objects, robots, floor)
+        found += names or _fields(node, objects)
+        found += _hands(node, objects, abilities)
     if found:
         return found
     order = list(TopologicalSorter({n.id: n.after for n in plan.nodes}).static_order())
-    return _reach(plan, world, objects, floor) + replay(plan, order, world)
+    return (
+        _reach(plan, world, objects, floor) + replay(plan, order, world) + grasp_faults(plan, order, world, abilities)
+    )
 
 
 def _graph(plan: Plan) -> list[str]:
@@ -63,7 +70,7 @@ def _graph(plan: Plan) -> list[str]:
     return []
 
 
-def _fields(node: PlanNode, objects: dict[str, ObjectState], floor: FloorPlan) -> list[str]:
+def _fields(node: PlanNode, objects: dict[str, ObjectState]) -> list[str]:
     where = f"node {node.id} ({node.action})"
     if node.action in NEEDS_OBJECT and node.object is None:
         return [f"{where} names no object"]
@@ -73,16 +80,13 @@ def _fields(node: PlanNode, objects: dict[str, ObjectState], floor: FloorPlan) -
         return [f"{where} names no room"]
     if node.action == "goto" and node.object is None and node.room is None and node.point_m is None:
         return [f"{where} names no place"]
-    found = [f"{where}: there is no object {id}" for id in (node.object, node.item) if id and id not in objects]
-    if node.room is not None and node.room not in floor.polygons:
-        found.append(f"{where}: there is no room {node.room}; rooms are {', '.join(floor.polygons)}")
     flag = _FLAG.get(node.action)
-    if not found and flag is not None and node.object is not None:
+    if flag is not None and node.object is not None:
         type = objects[node.object].type
         row = catalogue().get(type)
         if row is not None and not row.can(flag):
-            found.append(f"{where}: {node.object} is a {type}, which is not {flag}")
-    return found
+            return [f"{where}: {node.object} is a {type}, which is not {flag}"]
+    return []
 
 
 def _hands(node: PlanNode, objects: dict[str, ObjectState], abilities: Mapping[str, Ability]) -> list[str]:
@@ -121,6 +125,8 @@ def _reach(plan: Plan, world: WorldState, objects: dict[str, ObjectState], floor
     found = []
     for node in plan.nodes:
         room = node.room or (objects[node.object].room if node.object is not None else None)
+        if room is None and node.point_m is not None:
+            room = floor.room_at(*node.point_m)
         if room is not None and room not in rooms:
             found.append(f"node {node.id} ({node.action}): no door leads from any robot to {room}")
     return found

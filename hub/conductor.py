@@ -1,21 +1,20 @@
 """Algorithm 1 for the active task: plan, check, dispatch, watch, halt, plan again, until the goals hold."""
 
 from collections.abc import Sequence
-from typing import Literal, Protocol
 
 from hub import effects
-from hub.checks import faults
 from hub.dispatch import Dispatch
-from hub.journal import Journal
-from hub.memory import write_world
+from hub.ledger import Ledger
 from hub.monitor import Watch
 from hub.orders import order
 from hub.plan import PlanRun, Step
-from hub.task import Task
+from hub.planning import Planning
+from hub.task import Task, Then
+from hub.voice import Voice
 from hub.world import World
-from wire.messages.command import Command, Result
+from wire.messages.command import Result
 from wire.messages.operator import TaskStatus
-from wire.messages.plan import Plan, PlanReply, PlanRequest
+from wire.messages.plan import Plan, PlanReply
 
 _HALT_S = 8.0
 _STUCK_S = 45.0
@@ -23,33 +22,18 @@ _RETRY_S = 1.0
 _REPLANS_PER_FAIL = 8
 _FREE_CODES = frozenset({"not_there", "lost_hub", "interrupted", "cancelled", "closed"})
 """Failures that taught something new about the world: planned around, not counted."""
-Then = Literal["replan", "pause", "cancel"]
-
-
-class Voice(Protocol):
-    """What the conductor says to others."""
-
-    def ask_plan(self, request: PlanRequest) -> None: ...
-
-    def command(self, command: Command) -> None: ...
-
-    def cancel(self, robot: str, goal_id: str) -> None: ...
-
-    def show(self, task: Task) -> None:
-        """The task or its plan changed."""
 
 
 class Conductor:
     """Carries out one task at a time."""
 
     def __init__(
-        self, world: World, dispatch: Dispatch, journal: Journal, voice: Voice, epoch: int, max_fails: int
+        self, world: World, dispatch: Dispatch, ledger: Ledger, voice: Voice, epoch: int, max_fails: int
     ) -> None:
-        self._world, self._dispatch, self._journal, self._voice = world, dispatch, journal, voice
+        self._world, self._dispatch, self._ledger, self._voice = world, dispatch, ledger, voice
         self._epoch, self._max_fails = epoch, max_fails
+        self._planning = Planning(world, voice, epoch)
         self.task: Task | None = None
-        self._asked, self._ask_at_s = False, 0.0
-        self._halting: Then | None = None
         self._halted_s = self._moved_s = 0.0
         self._needless: set[str] = set()
         """Goal ids cancelled because their effect came about by itself."""
@@ -57,14 +41,15 @@ class Conductor:
     def begin(self, task: Task, now_s: float) -> None:
         """Take on a task, new or from the journal."""
         self.task = task
-        self._asked, self._halting = False, None
-        self._ask_at_s = self._moved_s = now_s
+        self._planning.begin(now_s)
+        self._moved_s = self._halted_s = now_s
         if task.run is None:
             self._world.begin_task()
         else:
             task.watch = Watch(task.run, self._world)
-            if task.status != "running" and task.run.running():
-                self.halt("pause" if task.status == "paused" else "replan", "the hub was restarted", now_s)
+            if task.halting is not None or (task.status != "running" and task.run.running()):
+                then = task.halting or ("pause" if task.status == "paused" else "replan")
+                self.halt(then, "the hub was restarted", now_s)
         task.measure(self._world)
 
     def advance(self, now_s: float) -> None:
@@ -72,37 +57,20 @@ class Conductor:
         task = self.task
         if task is None or task.ended:
             return
-        if self._halting is not None:
+        if task.halting is not None:
             self._wait_for_halt(task, now_s)
         elif task.status == "planning":
-            if not self._asked and now_s >= self._ask_at_s and self._world.fleet.met(now_s - task.started_s):
-                self._ask(task, now_s)
+            self._planning.ask_if_due(task, now_s)
         elif task.status == "running" and task.run is not None:
             self._drive(task, task.run, now_s)
-
-    def _ask(self, task: Task, now_s: float) -> None:
-        self._asked = True
-        task.rename(self._world.things)
-        request = PlanRequest(
-            task=task.id,
-            epoch=self._epoch,
-            instruction=task.instruction,
-            goals=task.goals or None,
-            world=self._world.snapshot(now_s),
-            skills=self._world.fleet.skills(),
-            failures=tuple(text[:2000] for text in task.failures[-8:]),
-            now_s=now_s,
-        )
-        self._voice.ask_plan(request)
 
     def planned(self, reply: PlanReply | None, now_s: float, error: str = "") -> None:
         """The planner's answer, or None when there was none in time."""
         task = self.task
-        if task is None or task.status != "planning" or self._halting is not None or not self._asked:
+        if task is None or task.status != "planning" or task.halting is not None:
             return
-        if reply is not None and (reply.task, reply.epoch) != (task.id, self._epoch):
+        if not self._planning.answers(task, reply):
             return
-        self._asked = False
         if reply is None:
             self._failed(task, f"the planner gave no answer{': ' + error if error else ''}", now_s)
         elif reply.refusal is not None:
@@ -118,18 +86,20 @@ class Conductor:
         task.tokens = (task.tokens[0] + plan.prompt_tokens, task.tokens[1] + plan.completion_tokens)
         for line in self._world.take_for(plan.taken_for):
             task.say(now_s, line)
-        found = faults(plan, self._world.snapshot(now_s), self._world.fleet.abilities(), self._world.floor)
+        found = self._planning.faults(plan, now_s)
         if found:
             task.failures += found
             self._failed(task, f"the plan cannot be carried out: {found[0]}", now_s)
             return
         if task.run is not None:
             task.done_before += task.run.done_count()
-        task.goals, task.run = plan.goals, PlanRun(plan)
+        task.goals, task.run = plan.goals, PlanRun(plan, {thing.id: thing.type for thing in self._world.things})
         task.watch = Watch(task.run, self._world)
         task.status, self._moved_s = "running", now_s
-        task.say(now_s, f"plan {plan.id}: {len(plan.nodes)} nodes{'' if plan.complete else ', a search first'}")
-        self._keep(task, now_s, "plan", plan.model_dump_json())
+        line = f"plan {plan.id}: {len(plan.nodes)} nodes{'' if plan.complete else ', a search first'}"
+        task.say(now_s, line)
+        # With the world: the ids in the plan mean nothing to a restarted hub that has not heard of them.
+        self._ledger.keep(task, now_s, "plan", plan.model_dump_json(), line=line, remember=True)
 
     def _drive(self, task: Task, run: PlanRun, now_s: float) -> None:
         """Dispatch what is ready; see whether the plan has come to its end."""
@@ -143,7 +113,8 @@ class Conductor:
             goal_id = f"{task.id}-e{self._epoch}-{task.counter}"
             run.start(step, robot.id, goal_id, now_s)
             command = order(step, robot, goal_id, self._epoch, self._world.things, self._dispatch, now_s)
-            self._keep(task, now_s, "command", f"{goal_id} {robot.id} {step.node.id} {step.node.action}")
+            body = f"{goal_id} {robot.id} {step.node.id} {step.node.action}"
+            self._ledger.keep(task, now_s, "command", body, line=f"{body} {_about(step, run)}")
             self._voice.command(command)
             self._moved_s = now_s
         if not running and now_s - self._moved_s > _STUCK_S:
@@ -165,19 +136,19 @@ class Conductor:
         """A goal of a robot has ended."""
         task = self.task
         step = task.run.of_goal(result.goal_id) if task is not None and task.run is not None else None
-        if task is None or step is None or step.status != "running" or step.robot is None:
+        if task is None or task.run is None or step is None or step.status != "running" or step.robot is None:
             return
         result = effects.finished_anyway(step.node, result)
-        effects.apply(self._world, step.node, step.robot, result)
+        effects.apply(self._world, step.node, step.robot, result, task.run.types)
         self._moved_s = now_s
         if result.status == "done" or result.code == "already":
             self._done(task, step, result.reason, now_s)
         elif result.goal_id in self._needless:
             self._done(task, step, "so already", now_s)
-        elif result.status in ("cancelled", "expired") and task.run is not None:
+        elif result.status in ("cancelled", "expired"):
             task.run.put_back(step, result.reason)
-            self._keep(task, now_s, "node", f"{step.node.id} {result.status}")
-        elif task.run is not None:
+            self._ledger.keep(task, now_s, "node", f"{step.node.id} {result.status}")
+        else:
             task.run.end(step, "failed", now_s, result.reason)
             text = f"{step.robot} could not {step.node.action} {step.node.object or step.node.room or ''}"
             counted = result.code not in _FREE_CODES
@@ -192,12 +163,14 @@ class Conductor:
             if task.watch is not None and named & {other.node.object, other.node.item}:
                 task.watch.refresh(other)
         task.say(now_s, f"{step.robot or 'nobody'}: {step.node.action} {step.node.object or step.node.room or ''} done")
-        self._keep(task, now_s, "node", f"{step.node.id} done", remember=True)
+        body = f"{step.node.id} done"
+        line = f"{body}: {step.robot or 'nobody'} {step.node.action} {_about(step, task.run)}"
+        self._ledger.keep(task, now_s, "node", body, line=line, remember=True)
 
     def changed(self, ids: Sequence[str], now_s: float) -> None:
         """IoTUpdate: things changed in W. Halt when that touches the plan."""
         task = self.task
-        if task is None or task.run is None or task.watch is None or task.status != "running" or self._halting:
+        if task is None or task.run is None or task.watch is None or task.status != "running" or task.halting:
             return
         for step, reason in task.watch.senseless():
             if step.status == "pending":
@@ -242,13 +215,13 @@ class Conductor:
         if task is None or task.ended:
             return
         task.say(now_s, reason)
-        if self._halting is None or then != "replan":
-            self._halting, self._halted_s = then, now_s
-        self._asked = False
+        if task.halting is None or then != "replan":
+            task.halting, self._halted_s = then, now_s
+        self._planning.drop()
         for step in task.run.running() if task.run is not None else ():
             if step.robot is not None and step.goal_id is not None:
                 self._voice.cancel(step.robot, step.goal_id)
-        self._keep(task, now_s, "halt", f"{then}: {reason}")
+        self._ledger.keep(task, now_s, "halt", f"{then}: {reason}")
 
     def _wait_for_halt(self, task: Task, now_s: float) -> None:
         running = task.run.running() if task.run is not None else []
@@ -257,18 +230,21 @@ class Conductor:
         for step in running:
             if task.run is not None:
                 task.run.put_back(step, "did not stop in time")
-        then, self._halting = self._halting, None
+        then, task.halting = task.halting, None
         if then == "cancel":
             self._end(task, "cancelled", "cancelled by the operator", now_s)
         elif then == "pause":
             task.status = "paused"
-            self._keep(task, now_s, "pause", task.id)
+            self._ledger.keep(task, now_s, "pause", task.id)
         else:
-            self._replan(task, task.failures[-1] if task.failures else "", now_s)
+            self._replan(task, task.failures[-1] if task.failures else "all robots stand still", now_s)
 
     def resume(self, now_s: float) -> None:
         """Go on after a pause, with a fresh plan."""
-        if self.task is not None and self.task.status == "paused":
+        if self.task is not None and self.task.halting == "pause":
+            self.task.halting = "replan"
+            self._ledger.keep(self.task, now_s, "resume", self.task.id)
+        elif self.task is not None and self.task.status == "paused":
             self._replan(self.task, "resumed", now_s)
 
     def _replan(self, task: Task, reason: str, now_s: float) -> None:
@@ -279,22 +255,21 @@ class Conductor:
         if task.replans > _REPLANS_PER_FAIL * self._max_fails:
             self._end(task, "failed", f"gave up after {task.replans} plans, the last reason: {reason}", now_s)
             return
-        task.status, self._asked = "planning", False
-        self._ask_at_s = now_s + (_RETRY_S if task.fails else 0.1)
-        self._keep(task, now_s, "replan", reason)
+        task.status = "planning"
+        self._planning.plan_from(now_s + (_RETRY_S if task.fails else 0.1))
+        self._ledger.keep(task, now_s, "replan", reason)
 
     def _end(self, task: Task, status: TaskStatus, reason: str, now_s: float) -> None:
         task.status, task.reason = status, reason
         task.say(now_s, f"{status}: {reason}")
         task.judge(self._world.snapshot(now_s))
-        self._keep(task, now_s, "end", f"{status}: {reason}", remember=True)
+        self._ledger.keep(task, now_s, "end", f"{status}: {reason}", remember=True)
 
-    def _keep(self, task: Task, now_s: float, kind: str, body: str, remember: bool = False) -> None:
-        """Journal a decision with the state after it, then show it."""
-        task.changed_s = now_s
-        task.measure(self._world)
-        state = {f"task/{task.id}": task.write()}
-        if remember:
-            state["world"] = write_world(self._world)
-        self._journal.decide(now_s, kind, body, state)
-        self._voice.show(task)
+
+def _about(step: Step, run: PlanRun) -> str:
+    """What a step is about, for people."""
+    node = step.node
+    id = node.item if node.action == "put" else node.object
+    if id is not None:
+        return f"{run.types.get(id, '')} {id}".strip()
+    return node.room or (f"({node.point_m[0]:g}, {node.point_m[1]:g})" if node.point_m is not None else "")

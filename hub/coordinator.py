@@ -7,8 +7,10 @@ from pathlib import Path
 from hub.conductor import Conductor
 from hub.desk import Desk
 from hub.dispatch import Dispatch
+from hub.hands import Hands
 from hub.journal import Journal
 from hub.kinds import shape
+from hub.ledger import Ledger
 from hub.memory import read_world, write_world
 from hub.recovery import Recovery
 from hub.traffic import Mover, Traffic
@@ -52,9 +54,12 @@ class Coordinator:
         self._node = node
         epoch = self._journal.next_epoch()
         self._voice = voice = Voice(node, epoch)
+        self.world.things.reseed(epoch)
+        ledger = Ledger(self.world, self._journal, voice)
         self._conductor = conductor = Conductor(
-            self.world, self._dispatch, self._journal, voice, epoch, self._site.hub.max_fails
+            self.world, self._dispatch, ledger, voice, epoch, self._site.hub.max_fails
         )
+        self._hands = Hands(self.world, self._dispatch, conductor, self._journal, voice, epoch)
         self._recovery = Recovery(self.world, conductor)
         self._desk = Desk(self.world, conductor, self._journal, voice)
         voice.on_plan = self._planned
@@ -81,6 +86,7 @@ class Coordinator:
         if self._is_due("delta", _DELTA_S, now_s):
             self._tell_changes(now_s)
         self._desk.step(now_s)
+        self._hands.settle(now_s)
         self._conductor.advance(now_s)
         if self._is_due("traffic", _TRAFFIC_S, now_s):
             self._direct_traffic(now_s)

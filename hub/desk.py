@@ -4,6 +4,7 @@ import json
 
 from hub.conductor import Conductor
 from hub.journal import Journal
+from hub.ledger import log
 from hub.task import Task, read_task
 from hub.voice import Voice
 from hub.why import why
@@ -34,6 +35,8 @@ class Desk:
                 task = self._tasks[id] = read_task(text)
                 if another and not task.ended:
                     task.status, task.reason = "cancelled", "the mesh was started anew in between; ask again"
+                elif not task.ended:
+                    log.info("%s at %.1f s: goes on, from the journal: %s", id, now_s, task.status)
         return any(not task.ended for task in self._tasks.values())
 
     def step(self, now_s: float) -> None:
@@ -71,6 +74,7 @@ class Desk:
         task.say(now_s, f"asked: {request.instruction}")
         state = {"tasks": json.dumps(list(self._tasks)), f"task/{task.id}": task.write()}
         self._journal.decide(now_s, "task", request.model_dump_json(), state)
+        log.info("%s at %.1f s: asked: %s", task.id, now_s, request.instruction)
         self._voice.show(task)
         return task.state(now_s)
 
@@ -94,44 +98,73 @@ class Desk:
             return self._stop(now_s)
         task = self._chosen(request.task)
         if task is None:
-            known = ", ".join(t.id for t in self._tasks.values() if not t.ended) or "none"
-            return ControlReply(ok=False, text=f"no such running task; running or waiting: {known}")
+            return self._nothing_to(request)
         if task is not self._conductor.task:
             if request.verb != "cancel":
                 return ControlReply(ok=False, text=f"{task.id} has not begun; it can only be cancelled")
             self._cancel_waiting(task, now_s)
             return ControlReply(ok=True, text=f"{task.id} cancelled before it began")
+        if task.halting == "cancel":
+            return ControlReply(ok=request.verb == "cancel", text=f"{task.id} is being cancelled")
         return self._control_active(request, task, now_s)
 
+    def _nothing_to(self, request: ControlRequest) -> ControlReply:
+        """No such task goes on. Fine for who wants everything to stand still, but not for who waits for it to go on."""
+        if request.task is None:
+            done = "paused" if request.verb == "resume" else "running"
+            return ControlReply(
+                ok=request.verb != "resume", text=f"no task is {done}; there is nothing to {request.verb}"
+            )
+        task = self._tasks.get(request.task)
+        if task is not None:
+            return ControlReply(
+                ok=False, text=f"{task.id} has ended: {task.status}; there is nothing to {request.verb}"
+            )
+        known = ", ".join(t.id for t in self._tasks.values() if not t.ended) or "none"
+        return ControlReply(ok=False, text=f"there is no task {request.task}; running or waiting: {known}")
+
     def _control_active(self, request: ControlRequest, task: Task, now_s: float) -> ControlReply:
+        """What is so already is answered as if it had just been done: a terminal asks again when an answer was lost."""
+        pausing = task.status == "paused" or task.halting == "pause"
         if request.verb == "resume":
-            if task.status != "paused":
-                return ControlReply(ok=False, text=f"{task.id} is not paused but {task.status}")
+            if not pausing:
+                return ControlReply(ok=True, text=f"{task.id} is not paused: it is {task.status}")
             self._conductor.resume(now_s)
             return ControlReply(ok=True, text=f"{task.id} goes on")
         if request.verb == "pause":
-            self._conductor.halt("pause", "paused by the operator", now_s)
+            if task.status == "paused":
+                return ControlReply(ok=True, text=f"{task.id} is paused already")
+            if not pausing:
+                self._conductor.halt("pause", "paused by the operator", now_s)
             return ControlReply(ok=True, text=f"{task.id} pauses as soon as its robots stand still")
         self._conductor.halt("cancel", "cancelled by the operator", now_s)
         return ControlReply(ok=True, text=f"{task.id} is being cancelled")
 
     def _stop(self, now_s: float) -> ControlReply:
         robots = sorted(r.id for r in self._world.fleet.here())
+        open_tasks = [task for task in self._tasks.values() if not task.ended]
+        log.info("at %.1f s: stop of %s and of %s", now_s, ", ".join(robots) or "no robot", _named(open_tasks))
         for robot in robots:
             self._voice.cancel(robot, None)
-        for task in self._tasks.values():
+        for task in open_tasks:
             if task is self._conductor.task:
                 self._conductor.halt("cancel", "stopped by the operator", now_s)
-            elif not task.ended:
+            else:
                 self._cancel_waiting(task, now_s)
-        return ControlReply(ok=True, text=f"stopping {', '.join(robots) or 'no robot: none is there'}")
+        told = f"stopping {', '.join(robots) or 'no robot: none is there'}"
+        return ControlReply(ok=True, text=told if open_tasks else f"no task is running; {told} all the same")
 
     def _cancel_waiting(self, task: Task, now_s: float) -> None:
         task.status, task.reason = "cancelled", "cancelled before it began"
         self._journal.decide(now_s, "end", f"{task.id} cancelled", {f"task/{task.id}": task.write()})
+        log.info("%s at %.1f s: end: %s", task.id, now_s, task.reason)
         self._voice.show(task)
 
     def _chosen(self, id: str | None) -> Task | None:
         """The task named, or the active one."""
         task = self._tasks.get(id) if id is not None else self._conductor.task
         return None if task is None or task.ended else task
+
+
+def _named(tasks: list[Task]) -> str:
+    return ", ".join(task.id for task in tasks) or "no task"

@@ -7,6 +7,7 @@ from hub.assignment import FORBIDDEN, assign
 from hub.distance import Distances
 from hub.fleet import Robot
 from hub.floor import FloorPlan, centre
+from hub.kinds import BLADES
 from hub.plan import PlanRun, Step
 from hub.things import Things
 from wire.frames import wrap_rad
@@ -59,7 +60,7 @@ class Dispatch:
             if preferred in busy and waited_s < _PATIENCE_S:
                 return FORBIDDEN
             cost += _STOLEN_M
-        if robot.inventory is not None and node.item != robot.inventory:
+        if robot.full_handed and (node.item is None or node.item != robot.inventory):
             cost += _OTHER_ERRAND_M
         return min(cost, FORBIDDEN)
 
@@ -73,9 +74,12 @@ class Dispatch:
             return robot.inventory == node.item
         if node.action == "pickup":
             thing = self._things.get(node.object)
-            return robot.inventory is None and (thing is None or robot.ability.lifts(thing.type))
-        if node.action in ("slice", "clean"):
-            return robot.inventory is None
+            return not robot.full_handed and (thing is None or robot.ability.lifts(thing.type))
+        if node.action == "slice":
+            held = self._things.get(robot.inventory)
+            return held is not None and held.type in BLADES
+        if node.action == "clean":
+            return not robot.full_handed
         return True
 
     def _way(self, step: Step, robot: Robot) -> float:

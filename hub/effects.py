@@ -1,5 +1,7 @@
 """F of equation 5 for what robots do: Pickup and Put re-parent, doors and switches change, a vain look denies."""
 
+from collections.abc import Mapping
+
 from hub.facts import handle
 from hub.records import Thing
 from hub.world import World
@@ -19,35 +21,52 @@ _SURE_M2 = 0.05**2
 _SURE_BELIEF = 3.5
 
 
-def apply(world: World, node: PlanNode, robot: str, result: Result) -> None:
-    """Take the end of a goal into W. What an action changes that is none of the known, observations will say."""
+def apply(world: World, node: PlanNode, robot: str, result: Result, types: Mapping[str, str]) -> None:
+    """Take the end of a goal into W. `types`: of the things in the plan, in case W has lost one meanwhile."""
     if node.action not in KNOWN_ACTIONS:
-        return
+        return  # what it changed, observations will say
     if result.status == "done" or result.code == "already":
-        _succeeded(world, node, robot, result)
+        _succeeded(world, node, robot, result, types)
     elif result.status == "failed":
         _failed(world, node, robot, result)
 
 
-def _succeeded(world: World, node: PlanNode, robot: str, result: Result) -> None:
-    thing = world.things.get(node.object)
-    if node.action == "explore" and node.room is not None:
-        if result.point_enu_m is None:
+def _succeeded(world: World, node: PlanNode, robot: str, result: Result, types: Mapping[str, str]) -> None:
+    if node.action == "explore":
+        if node.room is not None and result.point_enu_m is None:
             # A search that found something ended there, with the rest of the room unseen.
             world.areas.search_done(node.room, robot, result.stamp_s)
-    elif thing is None:
         return
-    elif node.action == "pickup":
+    if node.action == "goto":
+        return
+    if node.action == "put":
+        put(world, _handled(world, node.item, robot, result, types), world.things.get(node.object), robot, result)
+        return
+    thing = _handled(world, node.object, robot, result, types)
+    if node.action == "pickup":
+        world.fleet.robot(robot).holding = True
+    if thing is None:
+        return
+    if node.action == "pickup":
         take(world, thing, robot, result.stamp_s)
-    elif node.action == "put":
-        item = world.things.get(node.item)
-        if item is not None:
-            put(world, item, thing, robot, result)
     elif node.action in CHANGES:
         name, value = CHANGES[node.action]
         handle(world.property_of(thing, name), robot, value, result.stamp_s)
-    if thing is not None and node.action not in ("goto", "explore"):
-        _touched(thing, robot, result.stamp_s)
+    touched(thing, robot, result.stamp_s)
+
+
+def _handled(world: World, id: str | None, robot: str, result: Result, types: Mapping[str, str]) -> Thing | None:
+    """What a hand has just been on. It is there, even when W had given it up or taken it for another."""
+    if id is None:
+        return None
+    known_as = world.things.standing_for(id)
+    thing = world.things.get(known_as)
+    if thing is None and id in types:
+        place = result.point_enu_m or world.fleet.robot(robot).position_m
+        thing = Thing(known_as, types[id], place, result.stamp_s)
+        thing.xx = thing.yy = thing.zz = _SURE_M2
+        world.things.bring_back(thing)
+    return thing
 
 
 def take(world: World, thing: Thing, robot: str, stamp_s: float) -> None:
@@ -59,19 +78,25 @@ def take(world: World, thing: Thing, robot: str, stamp_s: float) -> None:
     world.place(thing, robot)
 
 
-def put(world: World, item: Thing, holder: Thing, robot: str, result: Result) -> None:
-    """Put: the payload is cleared and rec_j <- id_k."""
+def put(world: World, item: Thing | None, holder: Thing | None, robot: str, result: Result) -> None:
+    """Put: the payload is cleared and rec_j <- id_k. Without a known item only the hand is."""
     carrier = world.fleet.robot(robot)
     carrier.inventory, carrier.holding = None, False
-    world.things.move(item, result.point_enu_m or (holder.x, holder.y, holder.z))
+    if holder is not None:
+        touched(holder, robot, result.stamp_s)
+    if item is None:
+        return
+    beside = (holder.x, holder.y, holder.z) if holder is not None else carrier.position_m
+    world.things.move(item, result.point_enu_m or beside)
     item.xx = item.yy = item.zz = _SURE_M2
     item.xy = 0.0
     item.handled_s, item.locked = result.stamp_s, False
-    _touched(item, robot, result.stamp_s)
-    world.place(item, holder.id)
+    touched(item, robot, result.stamp_s)
+    world.place(item, holder.id if holder is not None else None)
 
 
-def _touched(thing: Thing, robot: str, stamp_s: float) -> None:
+def touched(thing: Thing, robot: str, stamp_s: float) -> None:
+    """A hand was on it: it is there."""
     thing.belief = max(thing.belief, _SURE_BELIEF)
     thing.stamp_s, thing.last_source = max(thing.stamp_s, stamp_s), robot
     thing.first_hand_s = stamp_s

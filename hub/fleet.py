@@ -26,6 +26,7 @@ class Robot:
         "card",
         "goal_id",
         "holding",
+        "holding_type",
         "id",
         "inventory",
         "path_m",
@@ -47,6 +48,7 @@ class Robot:
         self.status: RobotStatus = "lost"
         self.present = False
         self.holding = False
+        self.holding_type: str | None = None
         self.inventory: str | None = None
         self.goal_id: str | None = None
         self.path_m: tuple[Vec2, ...] = ()
@@ -80,6 +82,11 @@ class Robot:
         return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf, parameters)
 
     @property
+    def full_handed(self) -> bool:
+        """Whether it carries something, known or not."""
+        return self.holding or self.inventory is not None
+
+    @property
     def radius_m(self) -> float:
         return self.card.radius_m if self.card is not None and self.card.radius_m > 0.0 else 0.38
 
@@ -101,7 +108,7 @@ class Fleet:
         robot = self.robot(report.robot)
         robot.position_m, robot.yaw_rad = report.position_enu_m, report.yaw_rad
         robot.status, robot.holding, robot.goal_id = report.status, report.holding, report.goal_id
-        robot.path_m = report.path_m
+        robot.path_m, robot.holding_type = report.path_m, report.holding_type
         robot.travelled_m, robot.action_steps = report.travelled_m, report.action_steps
         robot.stamp_s, robot.present = report.stamp_s, True
         return robot
@@ -123,9 +130,9 @@ class Fleet:
         return silent
 
     def met(self, waited_s: float) -> bool:
-        """Whether every robot has announced itself; one that never does is not waited for."""
+        """Whether every robot has announced itself and heard of the hub; one that never does is not waited for."""
         there = self.here()
-        return waited_s > _MEET_S or (bool(there) and all(r.card is not None for r in there))
+        return waited_s > _MEET_S or (bool(there) and all(r.card is not None and r.status != "lost" for r in there))
 
     def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""

@@ -6,6 +6,8 @@ from math import hypot
 
 from wire.catalogue import ObjectType, catalogue
 
+BLADES = ("Knife", "ButterKnife")
+"""What must be in the hand that slices."""
 _SAME_SIZE = 1.8
 """Two types whose every dimension differs by less than this factor may be taken for each other."""
 

@@ -34,7 +34,7 @@ def read_world(world: World, text: str) -> None:
     """Bring back what `write_world` wrote into a fresh world."""
     data = json.loads(text)
     for row in data["things"]:
-        world.things.add(_read_thing(row))
+        world.things.bring_back(_read_thing(row))
     for robot, item in data["hands"].items():
         world.fleet.robot(robot).inventory = item
     for room in data["searched"]:
@@ -77,6 +77,7 @@ def _read_thing(row: dict[str, Any]) -> Thing:
 def write_run(run: PlanRun) -> dict[str, Any]:
     return {
         "plan": run.plan.model_dump_json(),
+        "types": run.types,
         "nodes": [
             [s.node.id, s.status, s.robot, s.goal_id, s.reason, s.started_s, s.ended_s] for s in run.steps.values()
         ],
@@ -84,7 +85,7 @@ def write_run(run: PlanRun) -> dict[str, Any]:
 
 
 def read_run(data: dict[str, Any]) -> PlanRun:
-    run = PlanRun(Plan.model_validate_json(data["plan"]))
+    run = PlanRun(Plan.model_validate_json(data["plan"]), data.get("types", {}))
     for id, status, robot, goal_id, reason, started_s, ended_s in data["nodes"]:
         step = run.steps[id]
         NodeState(id=id, status=status, robot=robot, reason=reason, started_s=started_s, ended_s=ended_s)

@@ -40,6 +40,21 @@ def order(
     )
 
 
+def put_down(
+    robot: Robot, surface: Thing, walk_m: float, goal_id: str, epoch: int, things: Things, now_s: float
+) -> Command:
+    """The command to lay whatever is in the hand onto a surface."""
+    return Command(
+        goal_id=goal_id,
+        epoch=epoch,
+        robot=robot.id,
+        action="put",
+        target=target(surface, things),
+        valid_until_s=now_s + _START_WITHIN_S,
+        timeout_s=_HANDS_S + min(walk_m, 200.0) / _SLOWEST_MPS,
+    )
+
+
 def target(thing: Thing, things: Things) -> Target:
     """What the hub believes of a thing and of what it is in."""
     holder = things.get(thing.receptacle)

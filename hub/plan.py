@@ -1,5 +1,7 @@
 """A plan being carried out: the graph of equation 6 with what has become of each node of equation 7."""
 
+from collections.abc import Mapping
+
 from wire.messages.plan import NodeState, NodeStatus, Plan, PlanNode, PlanState
 
 
@@ -32,8 +34,11 @@ class Step:
 class PlanRun:
     """Which nodes are ready, run, are done."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, types: Mapping[str, str]) -> None:
+        """`types`: of the things in the plan, as they were believed when it was made."""
         self.plan = plan
+        named = {id for node in plan.nodes for id in (node.object, node.item)}
+        self.types = {id: type for id, type in sorted(types.items()) if id in named}
         self.steps = {node.id: Step(node) for node in plan.nodes}
 
     def ready(self, now_s: float) -> list[Step]:

@@ -45,7 +45,8 @@ class Recovery:
         for goal_id, step in self._running().items():
             if step.robot != reply.robot:
                 continue
-            result = _result(goal_id, reply.robot, records.get(goal_id), now_s)
+            holding = self._world.fleet.robot(reply.robot).holding
+            result = _result(goal_id, reply.robot, records.get(goal_id), holding, now_s)
             if result is not None:
                 self._conductor.result(result, now_s)
 
@@ -56,7 +57,8 @@ class Recovery:
         return {step.goal_id: step for step in task.run.running() if step.goal_id is not None}
 
 
-def _result(goal_id: str, robot: str, record: GoalRecord | None, now_s: float) -> Result | None:
+def _result(goal_id: str, robot: str, record: GoalRecord | None, holding: bool, now_s: float) -> Result | None:
+    """`holding`: as the robot reports it now; it has had no other goal since."""
     if record is None:
         return Result(
             goal_id=goal_id, robot=robot, stamp_s=now_s, status="cancelled", code="cancelled", reason="never arrived"
@@ -71,4 +73,5 @@ def _result(goal_id: str, robot: str, record: GoalRecord | None, now_s: float) -
         code=record.code,
         reason=record.reason,
         point_enu_m=record.point_enu_m,
+        holding=holding,
     )

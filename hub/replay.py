@@ -3,22 +3,43 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from wire.catalogue import catalogue
-from wire.messages.plan import Plan, PlanNode
+from hub.graph import ancestors, chains
+from hub.kinds import BLADES
+from wire.catalogue import PROP_FLAG, catalogue
+from wire.messages.plan import Action, Plan, PlanNode
 from wire.messages.world import ObjectState, WorldState
+
+_SETS: dict[Action, tuple[str, bool]] = {
+    "open": ("isOpen", True),
+    "close": ("isOpen", False),
+    "toggle_on": ("isToggled", True),
+    "toggle_off": ("isToggled", False),
+    "slice": ("isSliced", True),
+}
+_NEEDS: dict[tuple[Action, str], tuple[str, bool, str]] = {
+    ("open", "Microwave"): ("isToggled", False, "runs: switch it off"),
+    ("toggle_on", "Microwave"): ("isOpen", False, "is open: close it"),
+    ("toggle_on", "Laptop"): ("isOpen", True, "is closed: open it"),
+}
+"""What must be so of a thing of this type before the action, and what to do when it is not."""
 
 
 @dataclass
 class _Imagined:
     objects: dict[str, ObjectState]
     parent: dict[str, str | None]
-    open: dict[str, bool]
+    values: dict[tuple[str, str], bool]
+    """(Object, property) -> its value; False when nobody has spoken of it."""
     carried: dict[str, str]
     """Item -> the node that picked it up, or the robot that holds it now."""
     before: dict[str, set[str]]
     """Node -> every node that is surely done before it."""
-    opened_by: dict[str, list[str]] = field(default_factory=dict)
-    robots: frozenset[str] = frozenset()
+    chain: dict[str, str]
+    """Node -> its chain of nodes for one robot."""
+    slicers: dict[str, list[str]]
+    """Object -> the nodes that slice it."""
+    set_by: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+    """(Object, property) -> the nodes that gave it the value that it has; none while it is as in W."""
 
 
 def replay(plan: Plan, order: Sequence[str], world: WorldState) -> list[str]:
@@ -36,17 +57,18 @@ def replay(plan: Plan, order: Sequence[str], world: WorldState) -> list[str]:
 
 
 def _imagine(world: WorldState, plan: Plan, order: Sequence[str]) -> _Imagined:
-    after = {node.id: node.after for node in plan.nodes}
-    before: dict[str, set[str]] = {}
-    for id in order:
-        before[id] = set(after[id]).union(*(before[a] for a in after[id]))
+    slicers: dict[str, list[str]] = {}
+    for node in plan.nodes:
+        if node.action == "slice" and node.object is not None:
+            slicers.setdefault(node.object, []).append(node.id)
     return _Imagined(
         objects={o.id: o for o in world.objects},
         parent={o.id: o.receptacle for o in world.objects},
-        open={o.id: "isOpen" in o.props and o.props["isOpen"].value for o in world.objects},
+        values={(o.id, name): name in o.props and o.props[name].value for o in world.objects for name in PROP_FLAG},
         carried={r.inventory: r.id for r in world.robots if r.inventory is not None},
-        before=before,
-        robots=frozenset(r.id for r in world.robots),
+        before=ancestors(plan, order),
+        chain=chains(plan),
+        slicers=slicers,
     )
 
 
@@ -55,9 +77,16 @@ def _fault(node: PlanNode, nodes: dict[str, PlanNode], state: _Imagined) -> str 
         return _pickup_fault(node, state)
     if node.action == "put":
         return _put_fault(node, nodes, state)
-    if node.action in ("open", "close", "toggle_on", "toggle_off", "slice", "clean") and node.object is not None:
-        return _shut_in(node.object, node, state)
-    return None
+    if node.object is None or node.action not in (*_SETS, "clean"):
+        return None
+    if node.action == "slice":
+        fault = _slice_fault(node, nodes, state)
+        if fault is not None:
+            return fault
+    name, wanted, otherwise = _NEEDS.get((node.action, state.objects[node.object].type), ("", False, ""))
+    if name and not _surely(node.object, name, wanted, node, state):
+        return f"{node.object} {otherwise} in a node that this one waits for"
+    return _shut_in(node.object, node, state)
 
 
 def _pickup_fault(node: PlanNode, state: _Imagined) -> str | None:
@@ -66,7 +95,44 @@ def _pickup_fault(node: PlanNode, state: _Imagined) -> str | None:
         return None
     if item in state.carried:
         return f"{item} is already in a hand ({state.carried[item]}): put it down first"
+    sliced = state.objects[item].props.get("isSliced")
+    if sliced is not None and sliced.value:
+        return f"{item} has been sliced, and what is sliced cannot be carried: choose a whole one"
+    early = [slicer for slicer in state.slicers.get(item, ()) if node.id not in state.before[slicer]]
+    if early:
+        return f"{item} may be sliced by {early[0]} before, and what is sliced cannot be carried: slice it afterwards"
     return _shut_in(item, node, state)
+
+
+def _slice_fault(node: PlanNode, nodes: dict[str, PlanNode], state: _Imagined) -> str | None:
+    """Whether the robot would have no blade in its hand, or the food be in one."""
+    if node.object in state.carried:
+        return f"{node.object} is in a hand ({state.carried[node.object]}): put it down first, it is cut where it lies"
+    item = node.item
+    if item is not None and state.objects[item].type not in BLADES:
+        return f"{item} is a {state.objects[item].type}: slicing needs a {' or '.join(BLADES)} in the hand"
+    blades = [id for id in state.carried if state.objects[id].type in BLADES] if item is None else [item]
+    if not blades:
+        return (
+            f"slicing needs a {' or '.join(BLADES)} in the robot's hand: pick one up in a node that this one waits for, "
+            "and name it as item"
+        )
+    faults = [_not_in_hand(blade, node, nodes, state) for blade in blades]
+    return None if None in faults else faults[0]
+
+
+def _not_in_hand(item: str, node: PlanNode, nodes: dict[str, PlanNode], state: _Imagined) -> str | None:
+    """Why the robot of a node has not surely an item in its hand."""
+    taker = state.carried.get(item)
+    if taker is None:
+        return f"nobody has {item} in hand: pick it up first and let this node wait for that"
+    if taker not in nodes:
+        return None
+    if taker not in state.before[node.id]:
+        return f"it must wait for {taker}, which picks {item} up"
+    if node.same_robot_as is not None and state.chain[node.id] != state.chain[taker]:
+        return f"same_robot_as must be {taker}, the node that picks {item} up"
+    return None
 
 
 def _put_fault(node: PlanNode, nodes: dict[str, PlanNode], state: _Imagined) -> str | None:
@@ -75,16 +141,10 @@ def _put_fault(node: PlanNode, nodes: dict[str, PlanNode], state: _Imagined) -> 
         return None
     if item == holder:
         return f"{item} cannot be put into itself"
-    taker = state.carried.get(item)
-    if taker is None:
-        return f"nobody has {item} in hand: pick it up first and let this node wait for that"
-    if taker in nodes and taker not in state.before[node.id]:
-        return f"it must wait for {taker}, which picks {item} up"
-    if taker in nodes and node.same_robot_as is not None and node.same_robot_as != taker:
-        pair = nodes[node.same_robot_as]
-        if pair.same_robot_as != taker and nodes[taker].same_robot_as != pair.id:
-            return f"same_robot_as must be {taker}, the node that picks {item} up"
-    if _needs_opening(holder, state) and not _open_for(holder, node, state):
+    fault = _not_in_hand(item, node, nodes, state)
+    if fault is not None:
+        return fault
+    if _needs_opening(holder, state) and not _surely(holder, "isOpen", True, node, state):
         return f"{holder} is closed: open it in a node that this one waits for"
     return _shut_in(holder, node, state)
 
@@ -94,7 +154,7 @@ def _shut_in(id: str, node: PlanNode, state: _Imagined) -> str | None:
     seen = {id}
     holder = state.parent.get(id)
     while holder is not None and holder in state.objects and holder not in seen:
-        if _needs_opening(holder, state) and not _open_for(holder, node, state):
+        if _needs_opening(holder, state) and not _surely(holder, "isOpen", True, node, state):
             return f"{id} is in {holder}, which is closed: open it in a node that this one waits for"
         seen.add(holder)
         holder = state.parent.get(holder)
@@ -106,11 +166,12 @@ def _needs_opening(id: str, state: _Imagined) -> bool:
     return row is not None and row.must_open
 
 
-def _open_for(holder: str, node: PlanNode, state: _Imagined) -> bool:
-    if not state.open.get(holder, False):
+def _surely(id: str, name: str, wanted: bool, node: PlanNode, state: _Imagined) -> bool:
+    """Whether a property has a value when a node begins, in whatever order the graph is carried out."""
+    if state.values.get((id, name), False) != wanted:
         return False
-    openers = state.opened_by.get(holder)
-    return openers is None or any(opener in state.before[node.id] for opener in openers)
+    setters = state.set_by.get((id, name))
+    return setters is None or any(setter in state.before[node.id] for setter in setters)
 
 
 def _do(node: PlanNode, state: _Imagined) -> None:
@@ -122,9 +183,10 @@ def _do(node: PlanNode, state: _Imagined) -> None:
     elif node.action == "put" and node.item is not None:
         state.carried.pop(node.item, None)
         state.parent[node.item] = node.object
-    elif node.action == "open":
-        if not state.open.get(node.object, False):
-            state.opened_by.setdefault(node.object, []).append(node.id)
-        state.open[node.object] = True
-    elif node.action == "close":
-        state.open[node.object] = False
+    elif node.action in _SETS:
+        name, value = _SETS[node.action]
+        key = (node.object, name)
+        if state.values.get(key, False) != value:
+            state.values[key], state.set_by[key] = value, [node.id]
+        elif key in state.set_by:
+            state.set_by[key].append(node.id)

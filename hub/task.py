@@ -2,6 +2,7 @@
 
 import json
 from collections import deque
+from typing import Literal
 
 from hub.memory import read_goals, read_run, write_goals, write_run
 from hub.monitor import Watch
@@ -15,6 +16,8 @@ from wire.messages.plan import Refusal
 from wire.messages.world import WorldState
 
 _LINES = 12
+Then = Literal["replan", "pause", "cancel"]
+"""What comes when all robots of a halted task stand still."""
 ENDED: frozenset[TaskStatus] = frozenset({"done", "failed", "refused", "cancelled"})
 
 
@@ -24,6 +27,7 @@ class Task:
     def __init__(self, id: str, instruction: str, now_s: float) -> None:
         self.id, self.instruction = id, instruction
         self.status: TaskStatus = "planning"
+        self.halting: Then | None = None
         self.started_s = self.changed_s = now_s
         self.planner = ""
         self.goals: tuple[Goal, ...] = ()
@@ -116,6 +120,7 @@ class Task:
                 "id": self.id,
                 "instruction": self.instruction,
                 "status": self.status,
+                "halting": self.halting,
                 "started_s": self.started_s,
                 "planner": self.planner,
                 "goals": write_goals(self.goals),
@@ -152,6 +157,7 @@ def read_task(text: str) -> Task:
     data = json.loads(text)
     task = Task(data["id"], data["instruction"], data["started_s"])
     task.status, task.planner, task.reason = data["status"], data["planner"], data["reason"]
+    task.halting = data.get("halting")
     task.goals, task.holding = read_goals(data["goals"]), tuple(data["holding"])
     task.refusal = Refusal.model_validate(data["refusal"]) if data["refusal"] is not None else None
     task.run = read_run(data["run"]) if data["run"] is not None else None

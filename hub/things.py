@@ -45,6 +45,17 @@ class Things:
         self._cells.setdefault(thing.cell, []).append(thing)
         self.touch(thing)
 
+    def bring_back(self, thing: Thing) -> None:
+        """Add a thing under the id by which others have been told of it."""
+        thing.shown, thing.version = 0, 1
+        if thing.id in self.removed:
+            self.removed.remove(thing.id)
+        self.add(thing)
+
+    def reseed(self, run: int) -> None:
+        """Draw other ids from here on than earlier runs of the hub did."""
+        self._random = random.Random(run)
+
     def _new_id(self) -> str:
         while True:
             id = f"obj-{self._random.randrange(16**4):04x}"

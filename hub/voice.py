@@ -37,6 +37,8 @@ class Voice:
         self._planning = number = self._node.ask("make_plan", request)
 
         def heard(reply: Reply, now_s: float) -> None:
+            if number != self._planning:
+                return  # the answer to a question that has been asked anew since
             self.on_plan(reply.message if isinstance(reply.message, PlanReply) else None, reply.error)
 
         self._waiting[number] = heard

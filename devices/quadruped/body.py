@@ -83,6 +83,11 @@ class Body:
         return self.gripper is not None and self.gripper.holding
 
     @property
+    def holding_type(self) -> str | None:
+        """What the gripper takes the thing in the hand for; None too when it is empty."""
+        return self.gripper.holding_type if self.gripper is not None and self.gripper.holding else None
+
+    @property
     def others_m(self) -> tuple[Vec2, ...]:
         return self.order.others_m if self.order else ()
 

@@ -122,6 +122,7 @@ class QuadrupedWorker:
             holding=body.holding,
             standing_by_order=not body.may_move,
             held_up=not body.may_move or self._aside_m is not None or body.behind_other,
+            holding_type=body.holding_type,
         )
 
     @property

@@ -65,6 +65,7 @@ def test_carries_into_the_other_room_and_puts() -> None:
     room = Room(thing, cold)
     assert room.do("pickup", target=believed(thing)).status == "done"
     result = room.do("put", target=believed(cold, dx=0.2))
+    assert {(r.holding, r.holding_type) for r in room.hub.reports} == {(False, None), (True, "Apple")}
     assert (result.status, result.holding) == ("done", False)
     assert thing.inside is cold
     assert room.driver.contacts == 0

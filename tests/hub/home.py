@@ -28,7 +28,8 @@ class Flat:
         self.planner = ToyPlanner(answer)
         for robot in self.robots:
             self.mesh.add(robot, robot.id, "robot")
-        self.mesh.add(ToyCamera("cam-1", self._look), "cctv-1", "cctv")
+        self.camera = ToyCamera("cam-1", self._look)
+        self.mesh.add(self.camera, "cctv-1", "cctv")
         self.mesh.add(self.planner, "planner", "planner")
         self.hub = self.start_hub()
 

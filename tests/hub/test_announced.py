@@ -86,6 +86,6 @@ def test_an_unknown_action_changes_nothing_that_is_believed(status: str, code: s
     before = world.snapshot(2.0)
     node = _node(object=before.objects[0].id)
     result = Result(goal_id="g", robot="lift-1", stamp_s=2.0, status=status, code=code)
-    effects.apply(world, node, "lift-1", result)
+    effects.apply(world, node, "lift-1", result, {})
     assert world.delta(2.0) is None
     assert world.snapshot(2.0) == before

@@ -16,6 +16,7 @@ from tests.hub.scenes import batch, card, flat, report, seen
 from wire.messages.plan import Plan, PlanNode
 
 WEIGHT = "the-weight"
+TAKE = PlanNode(id="a", action="pickup", object="obj-3")
 
 
 def _least(costs: list[list[float]]) -> tuple[int, float]:
@@ -60,7 +61,7 @@ def _match(nodes: tuple[PlanNode, ...], busy: frozenset[str] = frozenset(), now_
         world.fleet.robot(id).inventory = inventory.get(id.replace("-", "_"))
     (weight,) = world.things
     nodes = tuple(n.model_copy(update={"object": weight.id}) if n.object == WEIGHT else n for n in nodes)
-    run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=nodes))
+    run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=nodes), {})
     run.ready(0.0)
     dispatch = Dispatch(world.floor, world.things)
     robots = list(world.fleet.robots.values())
@@ -85,9 +86,30 @@ def test_only_who_holds_it_puts_it() -> None:
 
 
 def test_full_hands_take_nothing() -> None:
-    take = PlanNode(id="a", action="pickup", object="obj-3")
-    assert _match((take,), dog_1="obj-1", dog_2="obj-2") == {}
+    assert _match((TAKE,), dog_1="obj-1", dog_2="obj-2") == {}
 
 
 def test_what_is_heavy_goes_to_who_can_lift_it() -> None:
     assert _match((PlanNode(id="a", action="pickup", object=WEIGHT),)) == {"a": "dog-2"}
+
+
+def test_who_holds_something_unknown_takes_nothing_more() -> None:
+    world = World(flat())
+    world.report_robot(report("dog-1", 1.0, 1.0, 0.0, holding=True))
+    world.fleet.take_card(card("dog-1"))
+    run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=(TAKE,)), {})
+    dispatch = Dispatch(world.floor, world.things)
+    assert dispatch.match(run, run.ready(0.0), world.fleet.here(), frozenset(), 0.0) == []
+
+
+def test_who_has_the_knife_slices() -> None:
+    world = World(flat())
+    for id, x, type in (("dog-1", 1.0, "Mug"), ("dog-2", 6.0, "Knife")):
+        world.report_robot(report(id, x, 1.0, 0.0, holding=True))
+        world.fleet.take_card(card(id))
+        world.fleet.robot(id).inventory = world.things.new(type, (x, 1.0, 0.6), 0.0).id
+    cut = PlanNode(id="a", action="slice", object="obj-3")
+    run = PlanRun(Plan(id="p-1", task="t-1", planner="toy", goals=(), nodes=(cut,)), {})
+    dispatch = Dispatch(world.floor, world.things)
+    matched = dispatch.match(run, run.ready(0.0), world.fleet.here(), frozenset(), 0.0)
+    assert [robot.id for _, robot in matched] == ["dog-2"]

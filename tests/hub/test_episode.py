@@ -18,7 +18,7 @@ def _find(request: PlanRequest, type: str) -> ObjectState:
     return next(o for o in request.world.objects if o.type == type)
 
 
-def _fetch(request: PlanRequest) -> PlanReply:
+def fetch(request: PlanRequest) -> PlanReply:
     """Open the fridge, take the apple, put it in; what is so already is left out."""
     apple, fridge = _find(request, "Apple"), _find(request, "Fridge")
     nodes: list[PlanNode] = []
@@ -44,7 +44,7 @@ def _fetch(request: PlanRequest) -> PlanReply:
 
 
 def test_an_apple_goes_into_the_fridge() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end()
@@ -57,7 +57,7 @@ def test_an_apple_goes_into_the_fridge() -> None:
 
 
 def test_open_and_pickup_are_done_by_two_robots_at_once() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     home.until_end()
@@ -68,7 +68,7 @@ def test_open_and_pickup_are_done_by_two_robots_at_once() -> None:
 
 def test_a_failed_action_halts_and_is_planned_again() -> None:
     failing = iter(["blocked"])
-    home = Flat(_fetch, fail=lambda c: next(failing, None) if c.action == "pickup" else None)
+    home = Flat(fetch, fail=lambda c: next(failing, None) if c.action == "pickup" else None)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end()
@@ -78,7 +78,7 @@ def test_a_failed_action_halts_and_is_planned_again() -> None:
 
 
 def test_max_fails_ends_the_task_with_the_reason() -> None:
-    home = Flat(_fetch, fail=lambda c: "blocked" if c.action == "pickup" else None)
+    home = Flat(fetch, fail=lambda c: "blocked" if c.action == "pickup" else None)
     home.mesh.run(3.0)
     home.ask()
     state = home.until_end(300.0)
@@ -144,7 +144,7 @@ def test_a_search_ends_when_the_looked_for_thing_appears() -> None:
 
 
 def test_stop_halts_robots_and_cancels() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(2.0)
@@ -158,7 +158,7 @@ def test_stop_halts_robots_and_cancels() -> None:
 
 
 def test_pause_and_resume() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(2.0)
@@ -170,7 +170,7 @@ def test_pause_and_resume() -> None:
 
 
 def test_the_same_task_id_again_is_the_same_task() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     again = home.ask("something else")
@@ -179,7 +179,7 @@ def test_the_same_task_id_again_is_the_same_task() -> None:
 
 
 def test_a_second_task_waits_for_the_first() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     second = home.mesh.call("task", TaskRequest(task="t-2", instruction="again"))
@@ -190,7 +190,7 @@ def test_a_second_task_waits_for_the_first() -> None:
 
 
 def test_a_robot_that_dies_is_planned_around() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(1.0)
@@ -208,10 +208,10 @@ class _Silent(ToyPlanner):
 
 
 def test_a_planner_that_dies_while_it_plans_is_asked_again_as_soon_as_it_is_back() -> None:
-    home = Flat(_fetch)
+    home = Flat(fetch)
     home.mesh.run(1.0)
     home.mesh.remove("planner", stop=False)
-    home.mesh.add(_Silent(_fetch), "planner", "planner")
+    home.mesh.add(_Silent(fetch), "planner", "planner")
     home.mesh.run(2.0)
     home.ask()
     home.mesh.run(1.0)
@@ -227,7 +227,7 @@ def test_a_planner_that_dies_while_it_plans_is_asked_again_as_soon_as_it_is_back
 
 def test_a_killed_hub_goes_on_without_repeating_a_finished_step(tmp_path: Path) -> None:
     for killed_after_s in (1.0, 4.0, 7.0, 10.0, 13.0):
-        home = Flat(_fetch, journal=tmp_path / f"{killed_after_s}.db")
+        home = Flat(fetch, journal=tmp_path / f"{killed_after_s}.db")
         home.mesh.run(3.0)
         home.ask()
         home.mesh.run(killed_after_s)
@@ -243,7 +243,7 @@ def test_a_killed_hub_goes_on_without_repeating_a_finished_step(tmp_path: Path) 
 
 def test_two_equal_runs_write_equal_journals() -> None:
     def play() -> list[tuple[float, str, str]]:
-        home = Flat(_fetch)
+        home = Flat(fetch)
         home.mesh.run(3.0)
         home.ask()
         home.until_end()

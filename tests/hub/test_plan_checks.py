@@ -43,6 +43,12 @@ def _world(**robot: object) -> WorldState:
             _object("fridge", "Fridge", isOpen=False),
             _object("table", "DiningTable"),
             _object("tv", "Television", room="living", isToggled=True),
+            _object("mug", "Mug"),
+            _object("knife", "Knife"),
+            _object("tomato", "Tomato", isSliced=True),
+            _object("oven", "Microwave", isOpen=False, isToggled=True),
+            _object("grill", "Microwave", isOpen=True, isToggled=False),
+            _object("laptop", "Laptop", isOpen=False, isToggled=False),
         ),
     )
 
@@ -112,6 +118,89 @@ def test_an_open_fridge_needs_no_opening() -> None:
     fridge = _object("fridge", "Fridge", isOpen=True)
     world = world.model_copy(update={"objects": tuple(fridge if o.id == "fridge" else o for o in world.objects)})
     assert _faults(PlanNode(id="a", action="pickup", object="egg"), world=world) == []
+
+
+def node(id: str, action: str, object: str, *after: str, **more: object) -> PlanNode:
+    return PlanNode.model_validate({"id": id, "action": action, "object": object, "after": after} | more)
+
+
+A, B = node("a", "pickup", "apple"), node("b", "pickup", "mug", "a", same_robot_as="a")
+ON_TABLE = node("p", "put", "table", "a", item="apple", same_robot_as="a")
+WISHED = tuple(n.model_copy(update={"preferred_robot": "dog-1"}) for n in (A, node("b", "pickup", "mug", "a")))
+BLADE = node("k", "pickup", "knife")
+CUT = node("s", "slice", "apple", "k", item="knife", same_robot_as="k")
+
+
+@pytest.mark.parametrize(
+    ("nodes", "words"),
+    [
+        ((A, B), "node b (pickup): double grasp: the robot of a still has apple in its hand from node a"),
+        ((A, B.model_copy(update={"after": ()})), "double grasp"),
+        ((A, B, ON_TABLE.model_copy(update={"after": ("a", "b")})), "double grasp"),
+        (WISHED, "node b (pickup): double grasp: dog-1 still has apple in its hand from node a"),
+        ((A, node("b", "pickup", "mug"), node("c", "pickup", "knife")), "apple, knife, mug would be in hands at once"),
+        ((A, node("c", "clean", "mug", "a", same_robot_as="a")), "cleaning needs an empty hand"),
+        ((PlanNode(id="a", action="goto", room="bath", preferred_robot="dog-99"),), "robots are dog-1, dog-2"),
+        ((PlanNode(id="a", action="explore", room="bath", looking_for=("Unicorn",)),), "Unicorn is no type of object"),
+        ((PlanNode(id="a", action="explore", room="bath", looking_for=("Mugg",)),), "named like Mug"),
+        ((PlanNode(id="a", action="goto", point_m=(50.0, 2.0)),), "(50, 2) lies outside of every room; the rooms lie"),
+        ((node("a", "pickup", "mugg"),), "there is no object mugg; the world has mug (Mug)"),
+        ((A, node("s", "slice", "apple", "a", same_robot_as="a")), "apple is in a hand (a)"),
+        ((node("s", "slice", "apple"),), "slicing needs a Knife or ButterKnife in the robot's hand"),
+        ((CUT.model_copy(update={"after": (), "same_robot_as": None}),), "nobody has knife in hand"),
+        ((BLADE, CUT.model_copy(update={"after": ()})), "nobody has knife in hand|must wait for k"),
+        (
+            (B.model_copy(update={"after": (), "same_robot_as": None}), node("s", "slice", "apple", "b", item="mug")),
+            "is a Mug",
+        ),
+        ((node("a", "pickup", "tomato"),), "tomato has been sliced"),
+        ((BLADE, CUT, A.model_copy(update={"after": ("s",)})), "apple may be sliced by s before"),
+        ((BLADE, CUT, A), "apple may be sliced by s before"),
+        ((node("o", "open", "oven"),), "oven runs: switch it off in a node that this one waits for"),
+        ((node("x", "toggle_off", "oven"), node("o", "open", "oven")), "oven runs"),
+        ((node("t", "toggle_on", "grill"),), "grill is open: close it"),
+        ((node("t", "toggle_on", "laptop"),), "laptop is closed: open it"),
+    ],
+)
+def test_what_would_fail_on_the_way_is_named(nodes: tuple[PlanNode, ...], words: str) -> None:
+    found = _faults(*nodes)
+    assert any(word in text for text in found for word in words.split("|")), found
+
+
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        (A, ON_TABLE, B.model_copy(update={"after": ("p",)})),
+        (A, ON_TABLE, B),  # whoever does a and b puts the apple down in between, whatever b waits for
+        (A, node("b", "pickup", "mug", "a")),  # two robots, a hand each
+        (*WISHED[:1], ON_TABLE, WISHED[1].model_copy(update={"after": ("p",)})),
+        (BLADE, CUT, node("p", "put", "table", "s", item="knife", same_robot_as="k")),
+        (BLADE, CUT.model_copy(update={"item": None})),
+        (A, ON_TABLE, BLADE, CUT.model_copy(update={"after": ("k", "p")})),
+        (node("x", "toggle_off", "oven"), node("o", "open", "oven", "x")),
+        (node("c", "close", "grill"), node("t", "toggle_on", "grill", "c")),
+        (node("o", "open", "laptop"), node("t", "toggle_on", "laptop", "o")),
+        (PlanNode(id="a", action="explore", room="bath", looking_for=("Mug",), preferred_robot="dog-2"),),
+        (PlanNode(id="a", action="goto", point_m=(4.0, 0.5)),),  # within a wall between two rooms
+    ],
+)
+def test_what_can_be_carried_out_is_not_blamed(nodes: tuple[PlanNode, ...]) -> None:
+    assert _faults(*nodes) == []
+
+
+def test_one_robot_with_a_full_hand_takes_nothing_more() -> None:
+    world, alone = _world(inventory="mug"), {"dog-1": ACTIONS}
+    assert _faults(A, world=world, skills=alone) == [
+        "node a (pickup): apple, mug would be in hands at once, but 1 robot has a hand: put something down before"
+    ]
+    down = node("p", "put", "table", item="mug")
+    assert _faults(down, A.model_copy(update={"after": ("p",)}), world=world, skills=alone) == []
+    assert _faults(A, world=world, skills=SKILLS) == []
+
+
+def test_a_robot_that_is_away_is_no_fault() -> None:
+    wished = PlanNode(id="a", action="goto", room="bath", preferred_robot="dog-1")
+    assert _faults(wished, skills={"dog-2": ACTIONS}) == [], "the wish falls away"
 
 
 @given(seed=st.integers(0, 100_000), size=st.integers(2, 12))

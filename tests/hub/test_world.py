@@ -39,7 +39,7 @@ def _one(world: World, type: str, now_s: float = 3.0) -> ObjectState:
 def _act(world: World, action: str, target: str, item: str | None = None, now_s: float = 4.0, **result: object) -> None:
     node = PlanNode(id="n-1", action=action, object=_one(world, target).id, item=_one(world, item).id if item else None)
     outcome = {"goal_id": "g-1", "robot": "dog-1", "stamp_s": now_s, "status": "done", "code": "ok", **result}
-    effects.apply(world, node, "dog-1", Result.model_validate(outcome))
+    effects.apply(world, node, "dog-1", Result.model_validate(outcome), {})
     world.delta(now_s)
 
 
@@ -179,3 +179,24 @@ def test_what_is_seen_at_a_closed_fridge_is_not_in_it() -> None:
     assert _one(world, "Tomato", 10.0).receptacle is None
     look(12.0, 0.95)
     assert _one(world, "Tomato", 20.0).receptacle == _one(world, "Fridge", 20.0).id
+
+
+def test_a_hand_holds_what_it_took_whatever_is_believed() -> None:
+    world = _kitchen()
+    apple = _one(world, "Apple")
+    thing = world.things.get(apple.id)
+    assert thing is not None
+    world.things.remove(thing)
+    took = PlanNode(id="n-1", action="pickup", object=apple.id)
+    result = Result(goal_id="g-1", robot="dog-1", stamp_s=5.0, status="done", code="ok", holding=True)
+    effects.apply(world, took, "dog-1", result, {apple.id: "Apple"})
+    delta = world.delta(5.0)
+    assert delta is not None
+    assert apple.id not in delta.removed
+    assert (_one(world, "Apple").id, _one(world, "Apple").receptacle) == (apple.id, "dog-1")
+    assert world.fleet.robots["dog-1"].inventory == apple.id
+    world.things.remove(world.things.by_id[apple.id])
+    put = PlanNode(id="n-2", action="put", object=_one(world, "Fridge").id, item=apple.id)
+    effects.apply(world, put, "dog-1", result.model_copy(update={"holding": False}), {apple.id: "Apple"})
+    assert world.fleet.robots["dog-1"].inventory is None
+    assert world.things.by_id[apple.id].receptacle == _one(world, "Fridge").id

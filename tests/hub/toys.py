@@ -19,7 +19,7 @@ from wire.messages.command import (
     RobotReport,
     TrafficOrder,
 )
-from wire.messages.observation import ObjectObservation, ObservationBatch
+from wire.messages.observation import Absence, ObjectObservation, ObservationBatch
 from wire.messages.plan import PlanReply, PlanRequest
 from wire.model import Vec2
 from wire.site import Site
@@ -59,6 +59,9 @@ class ToyRobot:
         self.records: dict[str, GoalRecord] = {}
         self.results: list[Result] = []
         self.holding = False
+        self.holding_type: str | None = None
+        self.deaf = False
+        """It does not hear when it is told to stop."""
         self.walked = 0.0
         self.seq = 0
         self.epoch = 0
@@ -86,7 +89,7 @@ class ToyRobot:
         if isinstance(message, GoalsRequest):
             return GoalsReply(robot=self.id, boot_id="b", epoch=self.epoch, goals=tuple(self.records.values()))
         if isinstance(message, CancelRequest):
-            if self.command is not None and message.goal_id in (None, self.command.goal_id):
+            if self.command is not None and not self.deaf and message.goal_id in (None, self.command.goal_id):
                 self._end("cancelled", "cancelled", now_s)
             return CommandAck(goal_id=message.goal_id or "", accepted=True)
         assert isinstance(message, Command)
@@ -173,6 +176,7 @@ class ToyRobot:
             yaw_rad=atan2(self.path[0][1] - self.xy[1], self.path[0][0] - self.xy[0]) if self.path else 0.0,
             status="executing" if self.command else "idle",
             holding=self.holding,
+            holding_type=self.holding_type if self.holding else None,
             goal_id=self.command.goal_id if self.command else None,
             path_m=tuple(self.path),
             travelled_m=self.walked,
@@ -185,6 +189,7 @@ class ToyCamera:
 
     def __init__(self, source: str, look: Callable[[float], Sequence[ObjectObservation]]) -> None:
         self.source, self.look, self.seq = source, look, 0
+        self.gone: Callable[[float], Sequence[Absence]] = lambda now_s: ()
 
     def start(self, node: Node) -> None:
         self.node = node
@@ -194,7 +199,13 @@ class ToyCamera:
             return
         self.seq += 1
         picture = ObservationBatch(
-            source=self.source, boot_id="b", seq=self.seq, stamp_s=now_s, kind="cctv", objects=tuple(self.look(now_s))
+            source=self.source,
+            boot_id="b",
+            seq=self.seq,
+            stamp_s=now_s,
+            kind="cctv",
+            objects=tuple(self.look(now_s)),
+            gone=tuple(self.gone(now_s)),
         )
         self.node.publish("observation", picture, self.source)
 

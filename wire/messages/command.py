@@ -132,6 +132,8 @@ class RobotReport(Message):
     yaw_rad: float
     status: RobotStatus
     holding: bool = False
+    holding_type: Word | None = None
+    """What its gripper takes the thing in the hand for, if it can tell."""
     goal_id: str | None = None
     path_m: tuple[Vec2, ...] = ()
     travelled_m: float = Field(default=0.0, ge=0.0)

@@ -112,3 +112,29 @@ def test_refusals_say_what_to_do(sentence: str, reason: str) -> None:
     with pytest.raises(Unclear) as refused:
         read_goals(sentence, WORLD)
     assert reason in refused.value.reason
+
+
+@pytest.mark.parametrize(
+    ("words", "moved"),
+    [
+        ("put all mugs in the kitchen into the sink", {"mug-1"}),
+        ("put all mugs except the one on the sofa into the sink and wash all mugs", {"mug-1", "mug-2"}),
+    ],
+)
+def test_a_thing_of_a_list_is_moved_once_and_still_washed(words: str, moved: set[str]) -> None:
+    house = house_with_mugs()
+    for number in (1, 2, 3):
+        house.things[f"mug-{number}"].props["isDirty"] = True
+    reply, _, _ = run(house, ScriptedPlanner(site()), words)
+    assert reply.plan is not None, reply.refusal
+    assert {t.id for t in house.things.values() if t.type == "Mug" and t.parent == "sink-1"} == moved
+    assert any(house.things[f"mug-{n}"].props["isDirty"] for n in (1, 2, 3)) is ("wash" not in words)
+
+
+def test_what_is_where_it_should_be_already_is_still_washed() -> None:
+    house = house_with_mugs()
+    house.things["mug-1"].props["isDirty"] = True
+    del house.things["mug-2"], house.things["mug-3"]
+    reply, _, _ = run(house, ScriptedPlanner(site()), "wash the mug and bring it to the kitchen")
+    assert reply.plan is not None, reply.refusal
+    assert not house.things["mug-1"].props["isDirty"]

@@ -85,6 +85,7 @@ class Resolver:
             self.check(thing.types[0], predicate, thing.text)
             return (Selector(type=thing.types[0], id=thing.id),)
         types, count = self._types(thing, predicate, inherited, limits)
+        _check_one_place(group, predicate, count, limits)
         return tuple(
             Selector(type=name, room=room, inside=inside, count=count)
             for name in types
@@ -202,6 +203,14 @@ def _count(thing: Thing) -> int | None:
     if thing.quant in ("count", "both"):
         return thing.count
     return None if thing.plural or thing.quant == "all" else 1
+
+
+def _check_one_place(group: Group, predicate: str, count: int | None, limits: Limits) -> None:
+    """ "Two mugs from the kitchen and the bathroom" are not two from each, and what is found in one is not looked for
+    in the other."""
+    several = len(limits.rooms) > 1 or len(limits.insides) > 1
+    if several and count is not None and (count > 1 or predicate == "found"):
+        raise Unclear(f"in which of the places? Say it for each: '{group.text}'", group.text, question=True)
 
 
 def _check_quant(thing: Thing, predicate: str) -> None:

@@ -73,13 +73,14 @@ def run_episode(
         mesh.run(1.0)
         task = mesh.call("task_query", TaskQuery(task="task-1"))
     assert isinstance(task, TaskState)
-    judged = _judge(mesh, None if instruction is None else tuple(g.goal for g in task.goals))
+    asked = None if instruction is None else tuple(g.goal for g in task.goals)
+    judged = _judge(mesh, asked, before.stamp_s)
     wall_s = time.perf_counter() - began
     sim_s = mesh.now_s
     mesh.close()
     return {
         "success": judged.success,
-        "goals": [{"goal": g.goal.text or g.goal.predicate, "true": g.holds} for g in judged.goals],
+        "goals": [{"goal": g.goal.text or g.goal.predicate, "true": g.holds, "note": g.note} for g in judged.goals],
         "task": task_document(task),
         "collisions": judged.collisions,
         "sim_s": sim_s,
@@ -90,9 +91,9 @@ def run_episode(
     }
 
 
-def _judge(mesh: LoopbackMesh, goals: tuple[Goal, ...] | None = None) -> JudgeReply:
+def _judge(mesh: LoopbackMesh, goals: tuple[Goal, ...] | None = None, since_s: float = 0.0) -> JudgeReply:
     """Of the scene's own task without goals."""
-    reply = mesh.call("judge", JudgeRequest(goals=goals), role="evaluator")
+    reply = mesh.call("judge", JudgeRequest(goals=goals, since_s=since_s), role="evaluator")
     assert isinstance(reply, JudgeReply)
     return reply
 

@@ -79,7 +79,7 @@ def _run(ready: Ready, instruction: str | None, limit_s: float, quiet: bool) -> 
         client.on("robot_report", RobotReport, trace)
         final = run_task(client, words, limit_s, quiet)
         goals = None if instruction is None else tuple(g.goal for g in final.goals)
-        judged = evaluator.ask("judge", JudgeRequest(goals=goals), JudgeReply)
+        judged = evaluator.ask("judge", JudgeRequest(goals=goals, since_s=before.stamp_s), JudgeReply)
         world = client.ask("snapshot", SnapshotRequest(), WorldState)
     return Run(final, judged, world, trails, time.monotonic() - began, judged.sim_s - before.sim_s)
 
@@ -94,7 +94,12 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
         "task_status": task.status,
         "reason": _reason(task),
         "goals": [
-            {"goal": g.goal.text or g.goal.predicate, "predicate": g.goal.model_dump(mode="json"), "true": g.holds}
+            {
+                "goal": g.goal.text or g.goal.predicate,
+                "predicate": g.goal.model_dump(mode="json"),
+                "true": g.holds,
+                "note": g.note,
+            }
             for g in run.judged.goals
         ],
         "planner": task.planner,
@@ -131,7 +136,10 @@ def _draw(ready: Ready, run: Run, path: Path) -> None:
 
 
 def summary_text(summary: dict[str, Any], out: Path) -> str:
-    goals = "\n".join(f"  {'yes' if g['true'] else 'NO':<4}{g['goal']}" for g in summary["goals"])
+    goals = "\n".join(
+        f"  {'yes' if g['true'] else 'NO':<4}{': '.join(filter(None, (g['goal'], g['note'])))}"
+        for g in summary["goals"]
+    )
     verdict = "succeeded" if summary["success"] else f"FAILED ({summary['reason'] or summary['task_status']})"
     return (
         f"\n{summary['instruction']}\n{verdict}, judged from the world as it is\n{goals}\n"

@@ -97,8 +97,7 @@ class SimCore:
         for report in self._appliances.reports(now_s) if self._appliances is not None else ():
             self._node.publish("device_report", self._faults.distort(report), report.device)
         if self._tick % self._judge_every == 0:
-            self._judge.watch()
-            self._node.publish("truth", TruthState(stamp_s=now_s, world=self._judge.world(now_s)))
+            self._node.publish("truth", TruthState(stamp_s=now_s, world=self._judge.watch(now_s)))
 
     def _publish_arm(self, robot: str, now_s: float) -> None:
         arm = self._arms[robot]

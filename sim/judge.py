@@ -1,11 +1,13 @@
-"""The evaluator's memory and verdict: which rooms were entered, which things were seen, which goals are true."""
+"""The evaluator's memory and verdict: which rooms were entered, which things were seen, which goals are true and came
+true in order."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import hypot
 
 from sim.boxes import body_box
 from sim.cameras import MAST_FOCAL_PX, MAST_HEIGHT_PX, MAST_WIDTH_PX
 from sim.carrier import Arm
+from sim.chronicle import Chronicle
 from sim.deeds import breach
 from sim.physics import Physics
 from sim.rover import Rover
@@ -32,15 +34,20 @@ class Judge:
         self._visited: set[str] = set()
         self._verified: set[int] = set()
         self._seq = 0
+        self._chronicle = Chronicle()
 
-    def watch(self) -> None:
-        """Note where the robots are, what their mast cameras see from near and what their hands have handled."""
+    def watch(self, now_s: float) -> WorldState:
+        """Note where the robots are, what their mast cameras see from near, what their hands have handled and what has
+        come true; the world as it is."""
         self._verified |= {deed.target for arm in self._arms.values() for deed in arm.deeds}
         for id, rover in self._physics.robots.items():
             room = room_of(self._scene, rover.motion().position_m)
             if room is not None:
                 self._visited.add(room)
             self._verified |= self._seen_from(id, rover)
+        world = self._world(now_s)
+        self._chronicle.note(world)
+        return world
 
     def _seen_from(self, id: str, rover: Rover) -> set[int]:
         eye_m, yaw_rad = rover.eye_m(), rover.motion().yaw_rad
@@ -58,7 +65,7 @@ class Judge:
         around = obstacles_around(self._scene, self._physics.structure, others, eye_m, SEEN_WITHIN_M)
         return {key for key in near if is_visible(self._scene, around, eye_m, key)}
 
-    def world(self, now_s: float) -> WorldState:
+    def _world(self, now_s: float) -> WorldState:
         self._seq += 1
         robots = {id: rover.motion() for id, rover in self._physics.robots.items()}
         return self._truth.world(robots, self._visited, self._verified, now_s, self._seq)
@@ -66,8 +73,9 @@ class Judge:
     def verdict(self, request: JudgeRequest, now_s: float, sim_s: float) -> JudgeReply:
         """Judge the goals asked about, or the scene's own."""
         goals = self._task.goals if request.goals is None else request.goals
-        world = self.world(now_s)
-        states = tuple(self._state(goal, world) for goal in goals)
+        world = self._world(now_s)
+        self._chronicle.note(world)
+        states = tuple(self._state(goals, index, request.since_s, world) for index in range(len(goals)))
         return JudgeReply(
             stamp_s=now_s,
             task=self._task,
@@ -77,9 +85,13 @@ class Judge:
             sim_s=sim_s,
         )
 
-    def _state(self, goal: Goal, world: WorldState) -> GoalState:
+    def _state(self, goals: Sequence[Goal], index: int, since_s: float, world: WorldState) -> GoalState:
+        """A goal that came true before those it should come after is not reached, whatever is true now."""
+        goal = goals[index]
         if not goal.forbidden:
-            return GoalState(goal=goal, holds=holds(goal, world))
+            reached = holds(goal, world)
+            note = self._chronicle.disorder(goals, index, since_s) if reached else ""
+            return GoalState(goal=goal, holds=reached and not note, note=note)
         deeds = [deed for arm in self._arms.values() for deed in arm.deeds]
         note = breach(goal, deeds, self._visited, world)
         return GoalState(goal=goal, holds=not note, note=note)

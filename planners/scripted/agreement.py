@@ -38,7 +38,8 @@ def _check_pair(goal: Goal, other: Goal) -> None:
     elif not goal.forbidden and _same(goal.subject, other.subject):
         what = called(goal.subject.type or "thing")
         if (goal.predicate, other.predicate) in OPPOSED:
-            raise Unclear(f"the {what} cannot be both {goal.predicate} and {other.predicate} at the end", other.text)
+            reason = f"the {what} cannot be both {goal.predicate} and {other.predicate} at the end"
+            raise Unclear(f"{reason}, which is all that a task is about: say which it should be", other.text)
         moved = goal.predicate in ("in", "at") and other.predicate in ("in", "at")
         pinned = goal.subject.id is not None or goal.subject.count is None
         if moved and pinned and _apart(goal, other):

@@ -49,7 +49,9 @@ class Lexicon:
         self._table.update({(word,): Meaning("CALL", word) for word in tables()["dropped"]["at_the_start"]})
         self._add_types({obj.type for obj in world.objects})
         self._add_rooms(world)
-        self._table.update({(robot.id,): Meaning("ROBOT", robot.id) for robot in world.robots})
+        for robot in world.robots:
+            for name in ((robot.id,), tuple(robot.id.split("-"))):
+                self._table[name] = Meaning("ROBOT", robot.id)
         for obj in world.objects:
             self._table[(obj.id,)] = Meaning("ID", obj.id, (obj.type,), (obj.id,))
 
@@ -60,9 +62,8 @@ class Lexicon:
             kind = "NOUN" if name in known else "UNSEEN"
             for base in {*names.get(name, ()), spaced(name)}:
                 self._add_noun(base, Meaning(kind, base, (name,)))
-        switched = tuple(t for t in modelled_types() if catalogue()[t].can("toggleable"))
         for base, types in tables()["class"].items():
-            self._add_noun(base, Meaning("NOUN", base, types or switched))
+            self._add_noun(base, Meaning("NOUN", base, types))
         for base in tables()["collective"]["words"]:
             types = self._table[tuple(base.split())].types
             self._table[tuple(base.split())] = Meaning("NOUN", base, types, plural=True)
@@ -91,7 +92,7 @@ class Lexicon:
 
     def words(self, text: str) -> list[Word]:
         """The instruction as typed phrases: longest match first, then misspellings, the rest UNKNOWN."""
-        pieces = list(_pieces(text))
+        pieces = list(self._pieces(text))
         found: list[Word] = []
         at = 0
         while at < len(pieces):
@@ -100,6 +101,18 @@ class Lexicon:
             found.append(Word(meaning, text[start:end], start, end))
             at += size
         return found
+
+    def _pieces(self, text: str) -> Iterable[tuple[str, int, int]]:
+        """Words in lower case with their places; contractions spelled out, hyphens of no id split."""
+        for match in _WORD.finditer(text.replace("’", "'")):
+            word = match.group().lower()
+            if word in tables()["contraction"]:
+                parts = tables()["contraction"][word][0].split()
+            elif "-" in word and (word,) not in self._table and not _ID.fullmatch(word):
+                parts = word.split("-")
+            else:
+                parts = [word]
+            yield from ((part, match.start(), match.end()) for part in parts)
 
     def _match(self, words: Sequence[str]) -> tuple[Meaning, int]:
         for size in range(len(words), 0, -1):
@@ -134,16 +147,3 @@ def called(type_name: str) -> str:
 def spaced(name: str) -> str:
     """ "coffee table" of "CoffeeTable"."""
     return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name).lower()
-
-
-def _pieces(text: str) -> Iterable[tuple[str, int, int]]:
-    """Words in lower case with their places; contractions spelled out, hyphens of no id split."""
-    for match in _WORD.finditer(text.replace("’", "'")):
-        word = match.group().lower()
-        if word in tables()["contraction"]:
-            parts = tables()["contraction"][word][0].split()
-        elif "-" in word and not _ID.fullmatch(word):
-            parts = word.split("-")
-        else:
-            parts = [word]
-        yield from ((part, match.start(), match.end()) for part in parts)

@@ -20,6 +20,7 @@ STRANGE = {
     "LIMIT": "I cannot do '{part}': {base}",
     "NOROOM": "there is no {base} in this building",
     "NOID": "nothing here is called {base}",
+    "ROBOT": "robots are chosen by the planner: leave out '{base}'",
     "UNSEEN": "no camera here can recognise a {base}",
 }
 """What to say of words that are known and of no use here."""
@@ -59,6 +60,9 @@ def parse(instruction: str, lexicon: Lexicon) -> tuple[Item, ...]:
 
 def _refuse_strangers(words: Sequence[Word]) -> None:
     parts = [(word, _part(words, index)) for index, word in enumerate(words)]
+    asked = next(((word, part) for word, part in parts if word.kind == "CONTROL"), None)
+    if asked is not None:
+        raise Unclear(asked[0].meaning.base, asked[1])
     unknown = [part for word, part in parts if word.kind == "UNKNOWN"]
     if unknown:
         listed = " and ".join(f"'{part}'" for part in unknown[:4])
@@ -85,13 +89,20 @@ def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) 
         part = instruction[typed[-1].start : typed[-1].end]
         return Unclear(f"the instruction stops too early, after '{part}'", part)
     word: Word = token.value
+    before = next((w for w in reversed(typed) if w.start < word.start), None)
     if word.kind.startswith("SEP") or word.kind.endswith("AND"):
-        before = next((w for w in reversed(typed) if w.start < word.start), word)
-        return Unclear(f"something is missing after '{before.text}'", before.text)
+        left = before or word
+        return Unclear(f"something is missing after '{left.text}'", left.text)
     end = next((w.start for w in typed if w.start > word.start and w.kind.startswith("SEP")), typed[-1].end)
     part = instruction[word.start : max(end, word.end)].strip()
-    if word.kind == "ROBOT":
-        return Unclear(f"robots are chosen by the planner: leave out '{word.text}'", part)
+    if word.kind == "NUM" and before is not None and before.kind == "NOUN":
+        name = f"{before.text} {word.text}"
+        return Unclear(f"nothing here is called '{name}': say the room that the {before.text} is in, or its id", name)
+    if word.kind == "IS":
+        start = next((w.end for w in reversed(typed) if w.end <= word.start and w.kind.startswith("SEP")), 0)
+        return Unclear(
+            f"'{instruction[start : word.end].strip()} ...' only says how things are: say 'make sure that ...'", part
+        )
     if word.kind == "OR":
         return Unclear("say which of them is meant: 'or' leaves it open", part, question=True)
     return Unclear(f"I do not understand '{part}' at this place", part)

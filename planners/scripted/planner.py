@@ -1,7 +1,8 @@
 """The default planner: words to goals through the grammar, goals to a plan; no model, no tokens."""
 
-from planners.scripted.goals import TEXT_LIMIT, read_goals
+from planners.scripted.goals import read_goals
 from planners.scripted.syntax import Unclear
+from planners.scripted.texts import TEXT_LIMIT
 from planners.scripted.told import read_told
 from planners.tasks.planning import TaskPlanner
 from wire.messages.plan import PlanReply, PlanRequest, Refusal

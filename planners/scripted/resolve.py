@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 
 from planners.scripted.lexicon import called
 from planners.scripted.syntax import Group, Place, Rooms, State, Thing, Unclear
+from planners.scripted.vocabulary import tables
 from wire.catalogue import catalogue, modelled_types
 from wire.messages.goal import Selector
-from wire.messages.world import WorldState
+from wire.messages.world import ObjectState, WorldState
 
 FLAG = {
     "open": ("openable", "opened"),
@@ -72,6 +73,7 @@ class Resolver:
     def subjects(self, group: Group, predicate: str, inherited: Thing | None = None) -> tuple[Selector, ...]:
         """Every selector that a list member stands for, when `predicate` is to be made true of it."""
         thing = group.thing
+        _check_quant(thing, predicate)
         _check_states(thing, predicate)
         limits = self.limits(group.places)
         if thing.head in ("it", "them"):
@@ -83,6 +85,7 @@ class Resolver:
             self.check(thing.types[0], predicate, thing.text)
             return (Selector(type=thing.types[0], id=thing.id),)
         types, count = self._types(thing, predicate, inherited, limits)
+        _check_one_place(group, predicate, count, limits)
         return tuple(
             Selector(type=name, room=room, inside=inside, count=count)
             for name in types
@@ -95,12 +98,14 @@ class Resolver:
     ) -> tuple[tuple[str, ...], int | None]:
         types = thing.types
         if thing.head == "everything":
-            types = modelled_types()
+            types = self._everything(predicate, limits)
         elif thing.head == "one":
             if inherited is None:
                 raise Unclear(f"what is meant by '{thing.text}'?", thing.text, question=True)
             types = inherited.types or modelled_types()
         count = _count(thing)
+        if thing.states and count is not None and len(self._known(types, limits)) != 1:
+            count = None
         fitting = tuple(t for t in types if self._affords(t, predicate))
         if not fitting:
             self.check(types[0], predicate, thing.text)
@@ -110,11 +115,22 @@ class Resolver:
 
     def _single(self, types: Sequence[str], thing: Thing, limits: Limits) -> str:
         """One type of several: the one that is there, else a question."""
-        here = {o.type for o in self._world.objects if o.type in types and (not limits.rooms or o.room in limits.rooms)}
+        here = {o.type for o in self._known(types, limits)}
         if len(here) == 1:
             return here.pop()
         choice = one_of([called(t) for t in types])
         raise Unclear(f"which kind is meant by '{thing.text}': {choice}?", thing.text, question=True)
+
+    def _known(self, types: Sequence[str], limits: Limits) -> list[ObjectState]:
+        rooms = limits.rooms
+        return [o for o in self._world.objects if o.type in types and (not rooms or o.room in rooms)]
+
+    def _everything(self, predicate: str, limits: Limits) -> tuple[str, ...]:
+        """To switch everything is about what is there and what homes have, not about every candle there might be."""
+        if predicate not in ("on", "off"):
+            return modelled_types()
+        known = {o.type for o in self._known(modelled_types(), limits)}
+        return tuple(t for t in modelled_types() if t in known or t in tables()["switched"]["types"])
 
     def _pronoun(self, thing: Thing, predicate: str, limits: Limits) -> tuple[Selector, ...]:
         if limits != Limits():
@@ -189,10 +205,29 @@ def _count(thing: Thing) -> int | None:
     return None if thing.plural or thing.quant == "all" else 1
 
 
+def _check_one_place(group: Group, predicate: str, count: int | None, limits: Limits) -> None:
+    """ "Two mugs from the kitchen and the bathroom" are not two from each, and what is found in one is not looked for
+    in the other."""
+    several = len(limits.rooms) > 1 or len(limits.insides) > 1
+    if several and count is not None and (count > 1 or predicate == "found"):
+        raise Unclear(f"in which of the places? Say it for each: '{group.text}'", group.text, question=True)
+
+
+def _check_quant(thing: Thing, predicate: str) -> None:
+    """ "No" asks for the opposite, which only a clause about how things should be can turn into a goal."""
+    if thing.quant == "none":
+        raise Unclear(f"say what should not be: 'make sure that {thing.text} is ...'", thing.text)
+    if thing.quant == "any" and not thing.plural and predicate in IMPLIED:
+        text = thing.text
+        raise Unclear(f"is every one meant by '{text}', or one of them?", text, question=True)
+
+
 def _check_states(thing: Thing, predicate: str) -> None:
     for state in thing.states:
         if IMPLIED.get(predicate) != state:
             raise Unclear(f"I cannot choose things by being {state}: '{thing.text}'", thing.text)
+        if thing.quant in ("a", "count", "both"):
+            raise Unclear(f"I cannot tell which are {state}: say 'all' instead of '{thing.text}'", thing.text)
 
 
 def share(members: Sequence[Group]) -> list[Group]:

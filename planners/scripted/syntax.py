@@ -5,7 +5,7 @@ from typing import Literal
 
 from wire.messages.goal import Predicate
 
-Quant = Literal["bare", "the", "all", "both", "count"]
+Quant = Literal["bare", "the", "a", "any", "all", "both", "count", "none"]
 State = Literal["on", "off", "open", "closed", "clean", "dirty", "sliced", "alone"]
 OPPOSITE: dict[State, Predicate] = {"on": "off", "off": "on", "open": "closed", "closed": "open"}
 
@@ -55,6 +55,8 @@ class Place(Phrase):
 
     preposition: Literal["IN", "ON", "INTO", "TO", "FROM"]
     what: Rooms | Thing | Literal["there", "anywhere"]
+    related: bool = False
+    """It follows "that is": it tells which thing is meant, and is no destination."""
 
 
 @dataclass(frozen=True)
@@ -65,12 +67,16 @@ class Group(Phrase):
     places: tuple[Place, ...] = ()
 
 
+LeftOut = Group | Place
+"""What is left out: things, or everything in a place."""
+
+
 @dataclass(frozen=True)
 class Groups(Phrase):
     """A list, and what is excepted from it."""
 
     members: tuple[Group, ...]
-    excepted: tuple[Group | Place, ...] = ()
+    excepted: tuple[LeftOut, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -93,6 +99,9 @@ class Act(Phrase):
     bodies: tuple[Body, ...] = ()
     stops: tuple[Rooms | Group, ...] = ()
     state: State | None = None
+    apart: tuple[LeftOut, ...] = ()
+    """Exceptions said before or after the clause and not in its list."""
+    everywhere: bool = False
     away: bool = False
     forbidden: bool = False
 
@@ -110,3 +119,7 @@ class Item(Phrase):
     """A `before` or `after` stands at the end of it."""
     late_first: bool = False
     """What is done last is said first."""
+    fronted: bool = False
+    """It begins with a `before` or `after`."""
+    apart: bool = False
+    """It begins with an exception."""

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from planners.scripted.exceptions import leave_out
 from planners.scripted.lexicon import called
 from planners.scripted.resolve import Resolver, named, one_of, share
-from planners.scripted.syntax import Act, Body, Group, Place, Rooms, Thing, Unclear
+from planners.scripted.syntax import Act, Body, Group, Groups, Place, Rooms, Thing, Unclear
 from wire.catalogue import catalogue
 from wire.messages.goal import Selector
 
@@ -17,6 +18,8 @@ class Move:
     subjects: tuple[Selector, ...]
     to: Selector | None
     text: str
+    restrained: tuple[Selector, ...] = ()
+    """What is named as an exception although it was not in the list: it must not go there."""
 
 
 @dataclass(frozen=True)
@@ -31,45 +34,97 @@ class _Split:
 def read_transport(act: Act, resolver: Resolver, continued: bool) -> list[Move]:
     """The moves of a `put` or `take` clause. `continued`: the next clause says where "it" goes."""
     assert act.groups is not None
-    if act.groups.excepted:
-        raise Unclear("say the exception with the things that are moved", act.groups.text)
+    loose = act.verb == "take"
     if act.away:
         if act.verb == "put" and act.word not in ("throw", "toss") and not act.word.startswith(DISCARDING):
             raise Unclear(f"where should '{act.groups.text}' go?", act.text, question=True)
-        return [Move(_subjects(list(act.groups.members), resolver), Selector(type="GarbageCan"), act.text)]
-    loose = act.verb == "take"
+        return [_bound_for(Selector(type="GarbageCan"), act.groups, resolver, act.text)]
+    groups = _with_destination(act.groups, loose)
     moves: list[Move] = []
     waiting: list[Group] = []
-    for member in act.groups.members:
+    for member in groups.members:
         split = _split(member, loose, continued, resolver)
         waiting.append(replace(member, places=split.own))
         if split.to is not None:
-            moves.append(_move(waiting, split, resolver, act.text))
+            excepted = groups.excepted if member is groups.members[-1] else ()
+            moves.append(_move(replace(groups, members=tuple(waiting), excepted=excepted), split, resolver, act.text))
             waiting = []
+    if moves and (waiting or (groups.excepted and len(moves) > 1)):
+        raise _ask_for_each(waiting, groups)
     if waiting:
-        if moves:
-            text = waiting[0].thing.text
-            raise Unclear(f"where should '{text}' go?", text, question=True)
-        moves.append(Move(_subjects(waiting, resolver), None, act.text))
+        moves.append(_bound_for(None, replace(groups, members=tuple(waiting)), resolver, act.text))
     return moves
 
 
+def _ask_for_each(waiting: Sequence[Group], groups: Groups) -> Unclear:
+    if waiting:
+        text = waiting[0].thing.text
+        return Unclear(f"where should '{text}' go?", text, question=True)
+    text = " and ".join(exception.text for exception in groups.excepted)
+    return Unclear(
+        f"for which of the places does 'except {text}' hold? Say each in a clause of its own", text, question=True
+    )
+
+
+MOST_NAMED = 5
 DISCARDING = ("throw", "discard", "dispose", "get rid")
 
 
-def _move(members: list[Group], split: _Split, resolver: Resolver, text: str) -> Move:
+def _with_destination(groups: Groups, loose: bool) -> Groups:
+    """The destination after an exception ("all food except the apple in the fridge") given to the list itself."""
+    last = groups.excepted[-1] if groups.excepted else None
+    if not isinstance(last, Group):
+        return groups
+    member, places = groups.members[-1], last.places
+    origin = next((p.text for p in places if p.preposition == "FROM" and not p.related), None)
+    if origin is not None and last.thing.head != "one":
+        asked = f"does '{origin}' hold for '{last.thing.text}' alone? Say it before 'except', or say 'that is in ...'"
+        raise Unclear(asked, origin, question=True)
+    bound = [i for i, place in enumerate(places) if place.preposition in ("TO", "INTO")]
+    if not bound:
+        free = _free(places)
+        if loose or (last.thing.head == "one" and len(free) == 1) or not free:
+            return groups
+        if any(place.preposition in ("TO", "INTO") for place in member.places):
+            return groups
+        if _free(member.places):
+            text = places[free[-1]].text
+            asked = f"is '{text}' where '{last.thing.text}' is, or where the rest should go? Say 'that is' or 'into'"
+            raise Unclear(asked, text, question=True)
+        holders = [i for i in free if isinstance(places[i].what, Thing)]
+        bound = [holders[-1] if holders else free[-1]]
+    at = bound[0]
+    members = (*groups.members[:-1], replace(member, places=member.places + places[at:]))
+    excepted = (*groups.excepted[:-1], replace(last, places=places[:at]))
+    return replace(groups, members=members, excepted=excepted)
+
+
+def _free(places: Sequence[Place]) -> list[int]:
+    """Which places may be a destination although they could tell where something is."""
+    return [
+        i
+        for i, place in enumerate(places)
+        if place.preposition in ("IN", "ON") and place.what != "anywhere" and not place.related
+    ]
+
+
+def _move(groups: Groups, split: _Split, resolver: Resolver, text: str) -> Move:
     assert split.to is not None
-    subjects = _subjects(members, resolver)
+    move = _bound_for(None, groups, resolver, text)
     to = destination(split.to, split.of_to, resolver)
-    if any(member.thing.head == "everything" for member in members):
+    subjects = move.subjects
+    if any(member.thing.head == "everything" for member in groups.members):
         subjects = tuple(s for s in subjects if s.type != to.type)
     for subject in subjects:
         _check_fit(subject, to, text)
-    return Move(subjects, to, text)
+    return replace(move, subjects=subjects, to=to)
 
 
-def _subjects(members: list[Group], resolver: Resolver) -> tuple[Selector, ...]:
-    return tuple(s for member in share(members) for s in resolver.subjects(member, "in"))
+def _bound_for(to: Selector | None, groups: Groups, resolver: Resolver, text: str) -> Move:
+    heads = share(groups.members)
+    subjects = [s for member in heads for s in resolver.subjects(member, "in")]
+    kept, restrained = leave_out(groups, heads, subjects, "in", resolver)
+    return Move(kept, to, text, restrained)
 
 
 def _split(member: Group, loose: bool, continued: bool, resolver: Resolver) -> _Split:
@@ -80,7 +135,7 @@ def _split(member: Group, loose: bool, continued: bool, resolver: Resolver) -> _
             return _Split(places[:index], place, places[index + 1 :])
     if loose and continued:
         return _Split(places)
-    free = [i for i, place in enumerate(places) if place.preposition in ("IN", "ON") and place.what != "anywhere"]
+    free = _free(places)
     if not free:
         return _Split(places)
     if loose:
@@ -133,7 +188,7 @@ def placed(body: Body, resolver: Resolver) -> Move:
         of_to, to = (to,), own.pop()
     if own:
         raise Unclear(f"I do not understand '{own[0].text}' at this place", own[0].text)
-    return _move(list(body.groups.members), _Split((), to, of_to), resolver, body.text)
+    return _move(body.groups, _Split((), to, of_to), resolver, body.text)
 
 
 def _check_fit(subject: Selector, to: Selector, text: str) -> None:
@@ -150,5 +205,6 @@ def _check_fit(subject: Selector, to: Selector, text: str) -> None:
 
 def ask_where(move: Move) -> Unclear:
     """What to say of a thing taken and put nowhere."""
-    names = one_of(sorted({called(s.type or "") for s in move.subjects}))
-    return Unclear(f"where should the {names} go? '{move.text}' leaves it in a robot's hand", move.text, question=True)
+    names = sorted({called(s.type or "") for s in move.subjects})
+    what = f"the {one_of(names)}" if len(names) <= MOST_NAMED else "they"
+    return Unclear(f"where should {what} go? '{move.text}' leaves it in a robot's hand", move.text, question=True)

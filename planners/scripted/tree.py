@@ -6,12 +6,14 @@ from typing import Any, cast
 from lark import Token, Transformer, v_args
 
 from planners.scripted.lexicon import Word
+from planners.scripted.states import STATES, adjective
 from planners.scripted.syntax import (
     Act,
     Body,
     Group,
     Groups,
     Item,
+    LeftOut,
     Phrase,
     Place,
     Quant,
@@ -20,24 +22,6 @@ from planners.scripted.syntax import (
     Thing,
 )
 
-STATES: dict[str, State] = {
-    "P_ON": "on",
-    "ISON": "on",
-    "SWITCH_ON": "on",
-    "P_OFF": "off",
-    "ISOFF": "off",
-    "SWITCH_OFF": "off",
-    "OPEN": "open",
-    "ISOPEN": "open",
-    "CLOSE": "closed",
-    "ISCLOSED": "closed",
-    "CLEAN": "clean",
-    "ISCLEAN": "clean",
-    "DIRTY": "dirty",
-    "SLICE": "sliced",
-    "ISSLICED": "sliced",
-    "ALONE": "alone",
-}
 Children = list[Any]
 
 
@@ -51,6 +35,11 @@ def _of(children: Children, kind: type[Any]) -> list[Any]:
 
 def _types(children: Children) -> list[str]:
     return [child.type for child in children if isinstance(child, Token)]
+
+
+def _apart(children: Children) -> tuple[LeftOut, ...]:
+    """The exceptions among the children."""
+    return next(iter(_of(children, tuple)), ())
 
 
 @v_args(meta=True)
@@ -71,11 +60,14 @@ class Builder(Transformer[Token, Any]):
         count = max(numbers, default=0)
         kinds = _types(children)
         text = self._span(meta)
+        bases = [_word(t).meaning.base for t in children]
         if "ALL" in kinds:
             return ("count", count, text) if count else ("all", 1, text)
         if "BOTH" in kinds:
             return "both", 2, text
-        return ("count", count, text) if count else ("the", 1, text)
+        if count:
+            return "count", count, text
+        return ("any" if bases == ["any"] else "a" if bases in (["a"], ["an"]) else "the"), 1, text
 
     def simple(self, meta: Any, children: Children) -> Thing:
         (token,) = children
@@ -92,10 +84,13 @@ class Builder(Transformer[Token, Any]):
 
     def noun_phrase(self, meta: Any, children: Children) -> Thing:
         thing: Thing = children[-1]
-        states = tuple(STATES[_adjective(_word(t))] for t in _of(children, Token))
+        states = tuple(STATES[adjective(_word(t))] for t in _of(children, Token) if t.type == "ADJ")
         for quant, count, _ in _of(children, tuple):
             thing = replace(thing, quant=quant, count=count)
         return replace(thing, text=self._span(meta), states=states)
+
+    def none_phrase(self, meta: Any, children: Children) -> Thing:
+        return replace(self.noun_phrase(meta, children), quant="none")
 
     def pronoun(self, meta: Any, children: Children) -> Thing:
         return Thing(self._span(meta), "it" if children[0].type == "IT" else "them")
@@ -103,12 +98,17 @@ class Builder(Transformer[Token, Any]):
     def everything(self, meta: Any, children: Children) -> Thing:
         return Thing(self._span(meta), "everything", quant="all", plural=True)
 
+    def nothing(self, meta: Any, children: Children) -> Thing:
+        return Thing(self._span(meta), "everything", quant="none", plural=True)
+
     # Places
 
     def room(self, meta: Any, children: Children) -> tuple[tuple[str, ...], bool]:
         meaning = _word(children[-1]).meaning
-        quant = children[0][0] if len(children) > 1 else "bare"
-        return meaning.ids, meaning.plural or quant in ("all", "both")
+        quant, count = children[0][:2] if len(children) > 1 else ("bare", 1)
+        if quant in ("count", "both"):
+            return meaning.ids, count == len(meaning.ids)
+        return meaning.ids, meaning.plural or quant == "all"
 
     def rooms(self, meta: Any, children: Children) -> Rooms:
         rooms = _of(children, tuple)
@@ -129,7 +129,8 @@ class Builder(Transformer[Token, Any]):
         return Place(self._span(meta), "IN", "anywhere")
 
     def related(self, meta: Any, children: Children) -> Place | State:
-        return cast("Place | State", children[-1])
+        told: Place | State = children[-1]
+        return replace(told, related=True) if isinstance(told, Place) else told
 
     def group(self, meta: Any, children: Children) -> Group:
         thing: Thing = children[0]
@@ -180,7 +181,9 @@ class Builder(Transformer[Token, Any]):
 
     def transport(self, meta: Any, children: Children) -> Act:
         kind = children[0].type
-        return self._act(meta, "put" if kind == "PUT" else "take", children, away="AWAY" in _types(children))
+        return self._act(
+            meta, "put" if kind == "PUT" else "take", children, away="AWAY" in _types(children), apart=_apart(children)
+        )
 
     def discard(self, meta: Any, children: Children) -> Act:
         return self._act(meta, "put", children, away=True)
@@ -192,12 +195,12 @@ class Builder(Transformer[Token, Any]):
         return self._act(meta, "change", children, state=children[1])
 
     def turn_each(self, meta: Any, children: Children) -> Act:
-        return self._act(meta, "be", children, bodies=tuple(_of(children, Body)))
+        return self._act(meta, "be", children, bodies=tuple(_of(children, Body)), apart=_apart(children))
 
-    ensure = turn_each
+    ensure = should = turn_each
 
-    def should(self, meta: Any, children: Children) -> Act:
-        return self._act(meta, "be", children, bodies=tuple(_of(children, Body)))
+    def elided(self, meta: Any, children: Children) -> Act:
+        return self._act(meta, "elided", children, stops=tuple(_of(children, Rooms)))
 
     def check(self, meta: Any, children: Children) -> Act:
         return self._act(meta, "check", children)
@@ -209,7 +212,19 @@ class Builder(Transformer[Token, Any]):
         return self._act(meta, "find", children)
 
     def go(self, meta: Any, children: Children) -> Act:
-        return self._act(meta, "go", children, stops=tuple(c for c in children if isinstance(c, Rooms | Group)))
+        stops = [child for child in children if isinstance(child, Rooms | Group)]
+        return self._act(meta, "go", children, stops=tuple(stops), apart=_apart(children))
+
+    def left_out(self, meta: Any, children: Children) -> tuple[LeftOut]:
+        what = children[-1]
+        return (Place(what.text, "IN", what) if isinstance(what, Rooms) else what,)
+
+    def house(self, meta: Any, children: Children) -> str:
+        return "house"
+
+    def survey(self, meta: Any, children: Children) -> Act:
+        everywhere = "house" in children
+        return self._act(meta, "survey", children, apart=_apart(children), everywhere=everywhere)
 
     def go_find(self, meta: Any, children: Children) -> Act:
         rooms = _of(children, Rooms)[0]
@@ -220,7 +235,7 @@ class Builder(Transformer[Token, Any]):
 
     def leave(self, meta: Any, children: Children) -> Act:
         states = [child for child in children if isinstance(child, str) and not isinstance(child, Token)]
-        return self._act(meta, "leave", children, state=states[0] if states else None)
+        return self._act(meta, "leave", children, state=states[0] if states else None, apart=_apart(children))
 
     def demand(self, meta: Any, children: Children) -> Act:
         return cast(Act, children[0])
@@ -239,13 +254,18 @@ class Builder(Transformer[Token, Any]):
         late, _, early = children
         return Item(self._span(meta), "", "", ((early,), (late,)), trailing=True, late_first=True)
 
+    def set_apart(self, meta: Any, children: Children) -> Item:
+        out = next((Place(r.text, "IN", r) for r in _of(children, Rooms)), None)
+        act = replace(children[-1], apart=(out,) if out is not None else children[0], text=self._span(meta))
+        return Item(act.text, "", "", ((act,),), apart=True)
+
     def first_last(self, meta: Any, children: Children) -> Item:
         acts = _of(children, Act)
-        return Item(self._span(meta), "", "", ((acts[-1],), tuple(acts[:-1])), late_first=True)
+        return Item(self._span(meta), "", "", ((acts[-1],), tuple(acts[:-1])), late_first=True, fronted=True)
 
     def first_then(self, meta: Any, children: Children) -> Item:
         acts = _of(children, Act)
-        return Item(self._span(meta), "", "", (tuple(acts[:-1]), (acts[-1],)))
+        return Item(self._span(meta), "", "", (tuple(acts[:-1]), (acts[-1],)), fronted=True)
 
     def item(self, meta: Any, children: Children) -> Item:
         timed = next(child for child in children if isinstance(child, Act | Item))
@@ -264,10 +284,3 @@ class Builder(Transformer[Token, Any]):
             else:
                 joint = child
         return tuple(items)
-
-
-def _adjective(word: Word) -> str:
-    """The token type that an adjective had as a word of its own."""
-    return {"open": "OPEN", "opened": "ISOPEN", "closed": "ISCLOSED", "dirty": "DIRTY", "unwashed": "DIRTY"}.get(
-        word.text.lower(), "ISSLICED" if word.text.lower() in ("sliced", "chopped") else "CLEAN"
-    )

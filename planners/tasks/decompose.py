@@ -11,6 +11,7 @@ from planners.tasks.belief import Belief
 from planners.tasks.handling import Handling
 from planners.tasks.places import holder_types
 from planners.tasks.search import Search, Wanted
+from planners.tasks.settle import MOVES
 from planners.tasks.work import Impossible, Job
 from wire.goals import holds
 from wire.messages.goal import Goal
@@ -63,10 +64,12 @@ class Decomposition:
         return not known and not holds(self._goals[index], self._belief.world)
 
     def _claim(self) -> None:
-        """Things that already are where a goal wants them are not taken for another goal."""
-        for index, goal in enumerate(self._goals):
-            if goal.predicate not in ("in", "at") or goal.forbidden:
-                continue
+        """Things that a goal names by id, or that are where it wants them already, are not taken for another one."""
+        moves = [(i, goal) for i, goal in enumerate(self._goals) if goal.predicate in MOVES and not goal.forbidden]
+        for index, goal in moves:
+            if goal.subject.id is not None:
+                self._taken.setdefault(goal.subject.id, index)
+        for index, goal in moves:
             good = [o for o in self._belief.matching(goal.subject) if self._belief.satisfies(goal, o)]
             limit = len(good) if goal.subject.count is None else goal.subject.count
             for obj in good[:limit]:
@@ -79,7 +82,7 @@ class Decomposition:
             if not holds(goal, self._belief.world):
                 self._handling.add(self._search.visit(goal.subject.room, index))
             return
-        things = [o for o in self._belief.matching(goal.subject) if self._taken.get(o.id, index) == index]
+        things = [o for o in self._belief.matching(goal.subject) if self._may_take(index, goal, o)]
         good = [o for o in things if self._belief.satisfies(goal, o)]
         rest = [o for o in things if not self._belief.satisfies(goal, o)]
         for obj in self._doubtful(goal, good):
@@ -93,6 +96,10 @@ class Decomposition:
                 raise Impossible(reasons[0])
         elif done < missing:
             self._want(index, goal, reasons[0] if reasons else "")
+
+    def _may_take(self, index: int, goal: Goal, obj: ObjectState) -> bool:
+        """One thing is moved for one goal; it may be washed for another."""
+        return goal.predicate not in MOVES or goal.subject.id is not None or self._taken.get(obj.id, index) == index
 
     def _doubtful(self, goal: Goal, good: list[ObjectState]) -> list[ObjectState]:
         """Things left alone only because of a weak belief; with enough trusted ones none needs a look."""
@@ -116,7 +123,7 @@ class Decomposition:
             if done >= needed:
                 break
             try:
-                if goal.predicate in ("in", "at"):
+                if goal.predicate in MOVES:
                     if not self._handling.move(index, goal, obj):
                         self._want_holder(index, goal, obj)
                     self._taken[obj.id] = index

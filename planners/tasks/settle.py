@@ -1,7 +1,8 @@
 """Goals made definite: which very thing is meant, once it is known.
 
-"The apple on the table" is another apple after somebody moved it, so a goal that says where its things *start* is
-bound to ids when they are found. The same selector in several goals ("wash the mug and bring it ...") is one thing.
+"The apple on the table" is another apple after somebody moved it, so a goal that says where its things *start*, or
+where those are that it leaves alone, is bound to ids when they are found. The same selector in several goals ("wash the
+mug and bring it ...") is one thing.
 """
 
 from collections.abc import Sequence
@@ -20,7 +21,7 @@ def settle(goals: Sequence[Goal], belief: Belief) -> tuple[Goal, ...]:
     for selector in dict.fromkeys(g.subject for g in current if _is_loose(g.subject)):
         users = [i for i, g in enumerate(current) if g.subject == selector and not g.forbidden]
         moved = [i for i in users if current[i].predicate in MOVES]
-        starts = selector.room is not None or selector.inside is not None
+        starts = any(s.room is not None or s.inside is not None for s in (selector, *selector.exclude))
         if moved and starts and selector.count is None:
             current += _all_bound(current, moved, belief)
         elif (moved and starts) or (len(users) > 1 and len(moved) <= 1):

@@ -135,3 +135,63 @@ def test_a_site_builds_its_own_home_with_a_task_that_is_not_done_yet():
     assert reply.task.instruction
     assert reply.goals
     assert not reply.success
+
+
+ORDERED = (
+    Goal(predicate="open", subject=Selector(type="Fridge"), text="open the fridge"),
+    Goal(predicate="on", subject=Selector(type="Television"), after=(0,), text="turn on the TV"),
+)
+
+
+def act(mesh, core, *changes):
+    """Set properties one after another, each a second apart; what the evaluator says in the end."""
+    mesh.run(1.0)
+    start_s = mesh.now_s
+    for kind, prop, value in changes:
+        next(b for b in core.scene.bodies.values() if b.type == kind).props[prop] = value
+        mesh.run(1.0)
+    return mesh.call("judge", JudgeRequest(goals=ORDERED, since_s=start_s), role="evaluator")
+
+
+@pytest.mark.parametrize(
+    ("changes", "kept"),
+    [
+        ([("Fridge", "isOpen", True), ("Television", "isToggled", True)], True),
+        ([("Television", "isToggled", True), ("Fridge", "isOpen", True)], False),
+        (
+            [
+                ("Television", "isToggled", True),
+                ("Television", "isToggled", False),
+                ("Fridge", "isOpen", True),
+                ("Television", "isToggled", True),
+            ],
+            True,
+        ),
+        ([("Fridge", "isOpen", True), ("Television", "isToggled", True), ("Fridge", "isOpen", False)], True),
+    ],
+)
+def test_the_order_of_goals_is_judged(make_mesh, changes, kept):
+    mesh, core = make_mesh(Listener("dog-1"))
+    tv = act(mesh, core, *changes).goals[1]
+    assert (tv.holds, tv.note) == (
+        kept,
+        "" if kept else "it came true before 'open the fridge', which should come first",
+    )
+
+
+def test_what_was_true_when_the_task_was_given_is_not_out_of_order(make_mesh):
+    mesh, core = make_mesh(Listener("dog-1"))
+    assert not act(mesh, core, ("Television", "isToggled", True)).success
+    reply = act(mesh, core, ("Fridge", "isOpen", True))
+    assert reply.success
+    assert not any(state.note for state in reply.goals)
+
+
+def test_a_room_is_visited_after_what_comes_first_when_a_robot_is_there_afterwards(make_mesh):
+    mesh, core = make_mesh(Listener("dog-1"))
+    rooms = [Goal(predicate="visited", subject=Selector(room=room), after=(0,)) for room in ("kitchen", "living")]
+    mesh.run(1.0)
+    core.scene.bodies[FRIDGE].props["isOpen"] = True
+    mesh.run(1.0)
+    reply = mesh.call("judge", JudgeRequest(goals=(ORDERED[0], *rooms)), role="evaluator")
+    assert [(state.holds, state.note) for state in reply.goals] == [(True, ""), (True, ""), (False, "")]

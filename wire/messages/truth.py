@@ -24,6 +24,8 @@ class JudgeRequest(Message):
     """Judge these goals, or the scene's own task when None, from the world as it is."""
 
     goals: tuple[Goal, ...] | None = None
+    since_s: Stamp = 0.0
+    """When the task was given: the order of goals is judged from then on."""
 
 
 class JudgeReply(Message):

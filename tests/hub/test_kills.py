@@ -179,6 +179,7 @@ def test_what_nobody_can_name_is_put_down() -> None:
     home.ask()
     state = home.until_end()
     assert (state.status, state.fails) == ("done", 0), state
+    home.mesh.run(20.0)
     assert [r.goal_id for r in full.results if r.goal_id.startswith("hands-")] == ["hands-e0-1"]
     assert not full.holding
     assert "pickup" in {home.actions(r.goal_id).split()[-1] for r in other.results}, "whose hand was free"

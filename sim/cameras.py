@@ -16,7 +16,7 @@ from wire import site as site_file
 from wire.messages.driver import CameraFrame
 
 JPEG_QUALITY = 85
-MAST_WIDTH_PX, MAST_HEIGHT_PX, MAST_FOCAL_PX = 320, 240, 160.0
+MAST_WIDTH_PX, MAST_HEIGHT_PX, MAST_FOCAL_PX = 480, 360, 240.0
 MAST_HZ = 2.0
 DEPTH_RANGE_M = 10.0
 

@@ -66,13 +66,18 @@ class Studio:
         return Shot(camera, jpeg, picture.depth_m, lens, labels, self._walls, self._doors)
 
 
-def shoot_home(seed: int, cctv: int, mast: int) -> Iterator[Shot]:
-    """Pictures of one home from both kinds of camera, the home in new disorder for every other one."""
+def shoot_home(seed: int, cctv: int, mast: int, tidy: int = 0) -> Iterator[Shot]:
+    """Pictures of one home from both kinds of camera, half and half of the first `tidy` of the home as it is.
+
+    For the others it is put in new disorder, every other time.
+    """
     studio = Studio(seed)
-    for number in range(cctv + mast):
-        if number % 2 == 0:
+    for number in range(tidy + cctv + mast):
+        if number >= tidy and number % 2 == 0:
             studio.scenery.shuffle()
-        fixed = number < cctv
+        elif number < tidy and number % 4 == 0:
+            studio.scenery.place_robots()
+        fixed = number % 2 == 0 if number < tidy else number < tidy + cctv
         lens = cctv_lens(studio.scene, studio.rng) if fixed else mast_lens(studio.scene, studio.rng)
         if lens is not None:
             yield studio.shoot("cctv" if fixed else "mast", lens)
@@ -88,9 +93,9 @@ def shoot_tidy(seed: int) -> Iterator[Shot]:
     studio.renderer.close()
 
 
-def render_home(seed: int, cctv: int, mast: int) -> Shard:
+def render_home(seed: int, cctv: int, mast: int, tidy: int) -> Shard:
     """All of a home's pictures, to be kept."""
-    shots = list(shoot_home(seed, cctv, mast))
+    shots = list(shoot_home(seed, cctv, mast, tidy))
     labels = np.concatenate([np.zeros(0, dtype=LABEL), *(shot.labels for shot in shots)])
     return Shard([shot.jpeg for shot in shots], [shot.lens for shot in shots], labels)
 
@@ -106,6 +111,7 @@ def main() -> None:
     parser.add_argument("--homes", type=span, required=True, help=f"seeds, below {HELD_OUT}")
     parser.add_argument("--cctv", type=int, default=24, help="pictures of fixed cameras in each home")
     parser.add_argument("--mast", type=int, default=20, help="pictures of a robot's camera in each home")
+    parser.add_argument("--tidy", type=int, default=16, help="pictures of both in each home as it is")
     parser.add_argument("--out", type=Path, required=True)
     arguments = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(message)s")
@@ -115,7 +121,7 @@ def main() -> None:
     for seed in arguments.homes:
         path = arguments.out / f"home-{seed}.npz"
         if not path.exists():
-            write_shard(path, render_home(seed, arguments.cctv, arguments.mast))
+            write_shard(path, render_home(seed, arguments.cctv, arguments.mast, arguments.tidy))
             log.info("%s", path)
 
 

@@ -11,6 +11,8 @@ from wire.catalogue import catalogue
 
 MAST_HEIGHT_M = 1.30
 MAST_FORWARD_M = 0.20
+MAST_SIZE = (480, 360, 240.0)
+"""Width, height and focal length of a robot's camera in pixels."""
 ROBOT_RADIUS_M = 0.38
 
 
@@ -54,7 +56,7 @@ def mast_lens(scene: Scene, rng: np.random.Generator) -> Lens | None:
         aimed = atan2(drop, max(0.2, hypot(*away) - MAST_FORWARD_M)) + float(rng.normal(0.0, 0.15))
         tilt = float(np.clip(aimed, 0.0, radians(60.0)))
     x, y = place[0] + MAST_FORWARD_M * np.cos(yaw), place[1] + MAST_FORWARD_M * np.sin(yaw)
-    return Lens(320, 240, 160.0, (float(x), float(y), MAST_HEIGHT_M), yaw, tilt)
+    return Lens(*MAST_SIZE, (float(x), float(y), MAST_HEIGHT_M), yaw, tilt)
 
 
 def any_room(scene: Scene, rng: np.random.Generator) -> Room:

@@ -40,7 +40,7 @@ class Scenery:
             if body.key not in self.extras and self._turn(body):
                 self.renderer.update(body)
         self._scatter()
-        self._place_robots()
+        self.place_robots()
 
     def things(self, robot_id: int) -> dict[int, Thing]:
         """By the id that pictures show."""
@@ -126,7 +126,8 @@ class Scenery:
             support.position_m[2] + place.height_m,
         )
 
-    def _place_robots(self) -> None:
+    def place_robots(self) -> None:
+        """Robots standing about, some with a load."""
         self.robots = {}
         for number in range(ROBOTS):
             name = f"dog-{number + 1}"

@@ -28,19 +28,19 @@ AVERAGE = 0.998
 class Trainer:
     """The network, its running mean and its optimiser."""
 
-    def __init__(self, steps: int, seed: int, rate: float) -> None:
+    def __init__(self, steps: int, seed: int, rate: float, bfloat16: bool = False) -> None:
         torch.manual_seed(seed)
         self.network = DetectorNetwork().to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.mean = copy.deepcopy(self.network)
         self.optimiser = torch.optim.AdamW(self.network.parameters(), rate, weight_decay=1e-4)
-        self.steps, self.step, self._peak = steps, 0, rate
+        self.steps, self.step, self._peak, self._bfloat16 = steps, 0, rate, bfloat16
 
     def learn(self, batch: Batch) -> dict[str, float]:
         """One step; returns the terms of the loss."""
         for group in self.optimiser.param_groups:
             group["lr"] = self._rate()
         pictures = torch.from_numpy(batch.pictures).contiguous(memory_format=torch.channels_last)
-        with torch.autocast("cpu", torch.bfloat16):
+        with torch.autocast("cpu", torch.bfloat16, enabled=self._bfloat16):
             outputs = self.network(pictures)
         terms = [head_loss(output, target) for output, target in zip(outputs, batch.targets, strict=True)]
         loss = torch.stack([value for head in terms for value in head.values()]).sum()
@@ -73,6 +73,7 @@ def main() -> None:
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=3e-3, help="of learning, at its highest")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--bfloat16", action="store_true", help="faster where the processor has AMX, slower elsewhere")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--keep", type=int, default=1000, help="write the weights every so many steps")
     parser.add_argument("--start", type=Path, help="a checkpoint to go on from, with a fresh schedule")
@@ -82,7 +83,7 @@ def main() -> None:
     torch.set_num_threads(arguments.threads)
     shard = read_shards(list(arguments.frames.glob("*.npz")))
     log.info("%d pictures, %d labels", len(shard.jpegs), len(shard.labels))
-    trainer = Trainer(arguments.steps, arguments.seed, arguments.rate)
+    trainer = Trainer(arguments.steps, arguments.seed, arguments.rate, arguments.bfloat16)
     if arguments.start is not None:
         trainer.network.load_state_dict(torch.load(arguments.start))
         trainer.mean.load_state_dict(trainer.network.state_dict())

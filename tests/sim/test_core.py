@@ -76,10 +76,10 @@ def test_pictures_are_spread_over_the_ticks_and_carry_pose_and_depth(make_mesh):
     last = dogs[0].of(CameraFrame)[-1]
     assert last.tilt_down_rad == pytest.approx(0.8)
     picture = cv2.imdecode(np.frombuffer(last.jpeg, np.uint8), cv2.IMREAD_COLOR)
-    assert picture.shape == (240, 320, 3)
-    depth_m = np.frombuffer(last.depth_mm, "<u2").reshape(240, 320) / 1000.0
+    assert picture.shape == (360, 480, 3)
+    depth_m = np.frombuffer(last.depth_mm, "<u2").reshape(360, 480) / 1000.0
     # The floor straight ahead: 1.3 m below the camera, 0.8 rad below the horizon.
-    assert depth_m[120, 160] == pytest.approx(1.3 / np.sin(0.8), abs=0.02)
+    assert depth_m[180, 240] == pytest.approx(1.3 / np.sin(0.8), abs=0.02)
 
 
 def test_the_same_commands_give_the_same_bytes(make_mesh):

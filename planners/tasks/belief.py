@@ -1,6 +1,7 @@
 """The believed world, indexed for planning: what is in what, what is closed, which belief may be trusted."""
 
 from collections.abc import Iterator
+from math import inf
 
 from planners.tasks.bans import Bans
 from planners.tasks.failures import Failures
@@ -13,6 +14,8 @@ from wire.messages.world import AreaState, ObjectState, RobotState, WorldState
 from wire.model import Vec2
 
 SURE = 0.9
+MOST_LOOKS = 4
+"""Plans that send a robot to look at the same thing before it is believed without."""
 UNSURE_M, UNSEEN_M, ODD_M = 20.0, 3.0, 12.0
 ABLE = frozenset({"idle", "executing", "canceling", "holding"})
 """States in which a robot can be counted on."""
@@ -50,17 +53,29 @@ class Belief:
     def trusted(self, goal: Goal, obj: ObjectState) -> bool:
         """Whether it is safe to leave a thing alone because a goal is believed to hold of it already.
 
-        A property counts as known when it is believed with at least 0.9, when a robot was the one who saw or set it,
-        or when a robot has been sent to look in this task; a place likewise, or when a robot verified the thing. What
-        only a camera says with less is looked at first: nothing would be done about it if it were wrong.
+        A thing counts as there when it is believed with at least 0.9 or a robot has verified it, and a property as
+        known when a robot was the one who saw or set it; both when a robot has been sent to look in this task. What
+        only a camera says of a property is looked at first: nothing would be done about it if it were wrong.
         """
-        if (obj.id, goal.predicate) in self.notes.inspected:
+        if goal.predicate in ("found", "visited") or self._looked_at(goal, obj):
             return True
+        there = obj.verified or obj.confidence >= SURE
         name = _PROP.get(goal.predicate)
         if name is None:
-            return obj.verified or obj.confidence >= SURE or goal.predicate in ("found", "visited")
+            return there
         fact = obj.props.get(name)
-        return fact is not None and (fact.confidence >= SURE or fact.source in self._robot_ids)
+        return there and fact is not None and fact.source in self._robot_ids
+
+    def _looked_at(self, goal: Goal, obj: ObjectState) -> bool:
+        """Whether a robot that was sent has seen it; a look that plan after plan never came to is not waited for."""
+        first_s, times = self.notes.sent_to_look.get((obj.id, goal.predicate), (inf, 0))
+        seen = obj.source in self._robot_ids and obj.stamp_s > first_s
+        return seen or times >= MOST_LOOKS
+
+    def look_planned(self, goal: Goal, obj: ObjectState) -> None:
+        """Note that a plan sends a robot to look at it."""
+        first_s, times = self.notes.sent_to_look.get((obj.id, goal.predicate), (self.world.stamp_s, 0))
+        self.notes.sent_to_look[obj.id, goal.predicate] = (first_s, times + 1)
 
     def doubt_m(self, obj: ObjectState) -> float:
         """How much farther a surer thing of the type may be: a trip to something else is in vain.

@@ -111,7 +111,7 @@ class Decomposition:
     def _inspect(self, index: int, goal: Goal, obj: ObjectState) -> None:
         if self._belief.bans.forbids("inspect", obj) or self._belief.failures.spent("inspect", obj.id):
             return
-        self._belief.notes.inspected.add((obj.id, goal.predicate))
+        self._belief.look_planned(goal, obj)
         self._handling.look(index, obj)
         self._pending.add(index)
 

@@ -14,8 +14,8 @@ class Notes:
     """Closed things that the plans have opened, to be closed again."""
     peeked: set[str] = field(default_factory=set)
     """Closed things opened to look what is inside."""
-    inspected: set[tuple[str, str]] = field(default_factory=set)
-    """(thing, predicate) that a robot has been sent to look at: then what is believed is trusted."""
+    sent_to_look: dict[tuple[str, str], tuple[float, int]] = field(default_factory=dict)
+    """(thing, predicate) that plans have sent a robot to look at: mesh time of the first, and how many did."""
     searched_twice: set[str] = field(default_factory=set)
     """Rooms searched once more after everything else was in vain."""
 

@@ -59,12 +59,16 @@ class Belief:
         """
         if goal.predicate in ("found", "visited") or self._looked_at(goal, obj):
             return True
-        there = obj.verified or obj.confidence >= SURE
+        there = self.there(obj)
         name = _PROP.get(goal.predicate)
         if name is None:
             return there
         fact = obj.props.get(name)
         return there and fact is not None and fact.source in self._robot_ids
+
+    def there(self, obj: ObjectState) -> bool:
+        """Whether it is surely there."""
+        return obj.verified or obj.confidence >= SURE
 
     def _looked_at(self, goal: Goal, obj: ObjectState) -> bool:
         """Whether a robot that was sent has seen it; a look that plan after plan never came to is not waited for."""

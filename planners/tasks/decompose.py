@@ -18,6 +18,7 @@ from wire.messages.goal import Goal
 from wire.messages.world import ObjectState
 
 ACTION_ON = frozenset({"open", "closed", "on", "off", "clean", "sliced"})
+SWITCHED = frozenset({"open", "closed", "on", "off"})
 
 
 class Decomposition:
@@ -85,9 +86,15 @@ class Decomposition:
         things = [o for o in self._belief.matching(goal.subject) if self._may_take(index, goal, o)]
         good = [o for o in things if self._belief.satisfies(goal, o)]
         rest = [o for o in things if not self._belief.satisfies(goal, o)]
-        for obj in self._doubtful(goal, good):
+        doubtful = self._doubtful(goal, good)
+        for obj in doubtful:
             self._inspect(index, goal, obj)
         missing = len(rest) if goal.subject.count is None else goal.subject.count - len(good)
+        if self._presupposed(goal, good):
+            others = [o for o in rest if self._belief.there(o)]
+            missing = max(missing, min(goal.subject.count or 0, len(others)))
+            if not others and not doubtful:
+                self._look_everywhere(index, goal)
         rest.sort(key=lambda o: (*self._handling.preference(goal, o), o.id))
         reasons, done = self._act(index, goal, rest, missing)
         if goal.subject.count is None:
@@ -100,6 +107,11 @@ class Decomposition:
     def _may_take(self, index: int, goal: Goal, obj: ObjectState) -> bool:
         """One thing is moved for one goal; it may be washed for another."""
         return goal.predicate not in MOVES or goal.subject.id is not None or self._taken.get(obj.id, index) == index
+
+    def _presupposed(self, goal: Goal, good: list[ObjectState]) -> bool:
+        """Who says "turn off the lamp" knows of one that is on: one that was off before is not the one that is meant."""
+        loose = goal.subject.id is None and goal.subject.count is not None and goal.predicate in SWITCHED
+        return loose and bool(good) and not any((o.id, goal.predicate) in self._belief.notes.changed for o in good)
 
     def _doubtful(self, goal: Goal, good: list[ObjectState]) -> list[ObjectState]:
         """Things left alone only because of a weak belief; with enough trusted ones none needs a look."""
@@ -129,6 +141,7 @@ class Decomposition:
                     self._taken[obj.id] = index
                 elif goal.predicate in ACTION_ON:
                     self._handling.change(index, goal.predicate, obj)
+                    self._belief.notes.changed.add((obj.id, goal.predicate))
                 else:
                     self._handling.look(index, obj)
                 done += 1

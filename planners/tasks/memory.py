@@ -16,6 +16,8 @@ class Notes:
     """Closed things opened to look what is inside."""
     sent_to_look: dict[tuple[str, str], tuple[float, int]] = field(default_factory=dict)
     """(thing, predicate) that plans have sent a robot to look at: mesh time of the first, and how many did."""
+    changed: set[tuple[str, str]] = field(default_factory=set)
+    """(thing, predicate) that plans have made so."""
     searched_twice: set[str] = field(default_factory=set)
     """Rooms searched once more after everything else was in vain."""
 

@@ -45,5 +45,30 @@ def test_a_lamp_that_may_not_be_there_or_not_be_off_is_looked_at(already_off: Ob
     )
     plan = ScriptedPlanner(site()).make_plan(request).plan
     assert plan is not None
-    assert [(n.action, n.object) for n in plan.nodes] == ([("inspect", "lamp-2")] if looked_at else [])
+    look = {("inspect", "lamp-2")} if looked_at else set()
+    assert {(n.action, n.object) for n in plan.nodes} == look | {("toggle_off", "lamp-1")}, (
+        "the one that is on is meant"
+    )
     assert plan.complete != looked_at
+
+
+def test_when_the_only_known_lamp_is_off_another_is_looked_for() -> None:
+    off = lamp("lamp-2", False, "dog-1", 0.99, verified=True)
+    world = House(1, dogs=1).world()
+    request = PlanRequest(
+        task="t-1",
+        epoch=0,
+        instruction="turn off the floor lamp",
+        world=world.model_copy(update={"objects": (*world.objects, off)}),
+        now_s=1.0,
+    )
+    plan = ScriptedPlanner(site()).make_plan(request).plan
+    assert plan is not None
+    assert {n.action for n in plan.nodes} == {"explore"}
+    assert {n.room for n in plan.nodes} == {area.id for area in world.areas}
+    searched = tuple(area.model_copy(update={"searched": True}) for area in world.areas)
+    again = request.model_copy(update={"world": request.world.model_copy(update={"areas": searched})})
+    plan = ScriptedPlanner(site()).make_plan(again).plan
+    assert plan is not None
+    assert plan.nodes == ()
+    assert plan.complete

@@ -2,12 +2,10 @@
 
 from sim.boxes import body_box
 from sim.scene import Scene
-from wire.catalogue import catalogue
+from wire.catalogue import REPORTED, SMART_TYPES, catalogue
 from wire.messages.driver import DeviceReport
 
 EVERY_S = 5.0
-SMART_TYPES = ("CoffeeMachine", "DeskLamp", "FloorLamp", "Fridge", "Microwave", "Television", "Toaster")
-REPORTED = ("isOpen", "isToggled")
 
 
 class Appliances:
@@ -21,6 +19,10 @@ class Appliances:
             self._keys |= {f"{kind.lower()}-{n}": key for n, (_, key) in enumerate(found, start=1)}
         self._said: dict[str, tuple[float, dict[str, bool]]] = {}
         self._seq = dict.fromkeys(self._keys, 0)
+
+    @property
+    def ids(self) -> list[str]:
+        return list(self._keys)
 
     def reports(self, now_s: float) -> list[DeviceReport]:
         """Those that are due, before any fault."""

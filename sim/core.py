@@ -44,6 +44,7 @@ class SimCore:
         self._arms = {r.id: Arm(r.id, scene, self.physics) for r in walkers}
         self._cameras = Cameras(site, self.physics, self._legs)
         self._appliances = Appliances(scene) if site.sim.smart_appliances else None
+        _check_faulty_appliances(site, self._appliances.ids if self._appliances is not None else [])
         self._faults = Faults(site.sim.fault, site.sim.seed)
         self._judge = Judge(scene, self.physics, self._arms, task)
         self._judge_every = max(1, round(1.0 / (JUDGE_HZ * self._step_s)))
@@ -129,6 +130,13 @@ def build(site: Site, process_id: str) -> SimCore:
     except RenderError as error:
         raise CannotRun(str(error)) from error
     return SimCore(site, scene, make_task(scene, site.sim.seed), renderer)
+
+
+def _check_faulty_appliances(site: Site, there: list[str]) -> None:
+    """Only the scene knows how many appliances of a type there are."""
+    for fault in site.sim.fault if site.sim is not None else ():
+        if fault.kind == "wrong_state" and fault.device not in there:
+            raise SiteError(f"{site.name}: sim.fault: this home has no {fault.device}; it has {', '.join(there)}")
 
 
 def _substeps(site: Site) -> int:

@@ -64,3 +64,9 @@ PROPS: tuple[str, ...] = ("isOpen", "isToggled", "isDirty", "isSliced")
 
 PROP_FLAG = {"isOpen": "openable", "isToggled": "toggleable", "isDirty": "dirtyable", "isSliced": "sliceable"}
 """The flag of a type that has the property."""
+
+SMART_TYPES = ("CoffeeMachine", "DeskLamp", "FloorLamp", "Fridge", "Microwave", "Television", "Toaster")
+"""Types whose smart appliances report their own state, each named by its type and a number: `television-1`."""
+
+REPORTED = ("isOpen", "isToggled")
+"""The properties that smart appliances report."""

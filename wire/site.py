@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from wire.catalogue import PROP_FLAG, REPORTED, SMART_TYPES, catalogue
 from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
 
@@ -82,7 +83,10 @@ class Router(Message):
 
 
 class Clock(Message):
-    """`wall`: real time. `lockstep`: the simulator owns time and waits for its followers, as fast as they are."""
+    """`wall`: real time. `lockstep`: the simulator owns time and waits for its followers, as fast as they are.
+
+    A file without a `[sim]` table that says nothing of the mode means `wall`.
+    """
 
     mode: Literal["wall", "lockstep"] = "lockstep"
     step_s: float = Field(default=0.05, gt=0.0, le=1.0)
@@ -164,13 +168,21 @@ def load_site(path: Path) -> Site:
 def parse_site(data: dict[str, Any], where: str) -> Site:
     """Check what was read from `where`."""
     try:
-        site = Site.model_validate(_tuples(data))
+        site = Site.model_validate(_tuples(_on_its_clock(data)))
     except ValidationError as error:
         raise SiteError(f"{where}: {describe(error, Site)}") from None
-    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site)]
+    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site), *_no_owner(site), *_vain_faults(site)]
     if faults:
         raise SiteError(f"{where}: {'; '.join(faults)}")
     return site
+
+
+def _on_its_clock(data: dict[str, Any]) -> dict[str, Any]:
+    """A building that nobody simulates lives by the wall clock, whether or not its file says so."""
+    clock = data.get("clock", {})
+    if "sim" in data or not isinstance(clock, dict):
+        return data
+    return {**data, "clock": {"mode": "wall", **clock}}
 
 
 def _repeated_ids(site: Site) -> Iterator[str]:
@@ -206,6 +218,41 @@ def _bad_ports(site: Site) -> Iterator[str]:
     shared = [place for place, port in ports.items() if counts[port] > 1]
     if shared:
         yield f"{' and '.join(shared)}: the same port {ports[shared[0]]}, give each its own"
+
+
+def _no_owner(site: Site) -> Iterator[str]:
+    told = "mode" in site.clock.model_fields_set and site.clock.mode == "lockstep"
+    if told and all(process.role != "sim" for process in site.process):
+        yield "clock.mode: lockstep needs a process with the role sim, which owns the time; add one, or set wall"
+
+
+def _vain_faults(site: Site) -> Iterator[str]:
+    """Faults that would never happen: a typo in an experiment is otherwise taken for robustness."""
+    if site.sim is None:
+        return
+    seeing = sorted({camera.id for camera in site.camera} | {robot.id for robot in site.robot})
+    for number, fault in enumerate(site.sim.fault):
+        place = f"sim.fault.{number}"
+        if fault.kind == "wrong_state":
+            yield from _vain_wrong_state(fault, place, site.sim.smart_appliances)
+        elif fault.device not in seeing:
+            yield f"{place}.device: {fault.device} takes no pictures; those that do are {', '.join(seeing) or 'none'}"
+        elif fault.kind == "delay" and fault.delay_s == 0.0:
+            yield f"{place}.delay_s: a delay needs a time above 0 s"
+
+
+def _vain_wrong_state(fault: Fault, place: str, smart: bool) -> Iterator[str]:
+    type, _, number = fault.device.rpartition("-")
+    kinds = {name.lower(): name for name in SMART_TYPES}
+    if not smart:
+        yield f"{place}.kind: no appliance reports its state here; set sim.smart_appliances = true"
+    if type not in kinds or not number.isdecimal():
+        names = ", ".join(f"{kind}-1" for kind in kinds)
+        yield f"{place}.device: {fault.device} reports no state; appliances are called {names} and so on"
+        return
+    reported = [prop for prop in REPORTED if catalogue()[kinds[type]].can(PROP_FLAG[prop])]
+    if fault.prop is not None and fault.prop not in reported:
+        yield f"{place}.prop: {fault.device} does not report {fault.prop}; it reports {', '.join(reported)}"
 
 
 def _tuples(value: Any) -> Any:

@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 
 from sim.generator.home import make_home
-from sim.generator.site_file import Options, write_site
+from sim.generator.site_file import Options, read_fault, write_site
 from wire.site import parse_site
 
 
@@ -24,12 +24,21 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--view-port", type=int, default=9876, help="where live viewers connect")
     parser.add_argument("--save", default="", help="file that the view records to")
     parser.add_argument("--smart-appliances", action="store_true", help="appliances report their own state")
+    parser.add_argument(
+        "--fault",
+        action="append",
+        default=[],
+        metavar="DEVICE:KIND[:VALUE]",
+        help="what goes wrong on purpose, once for each: cam-1:frame_loss:0.3, cam-1:delay:0.5, "
+        "television-1:wrong_state:isToggled",
+    )
     arguments = vars(parser.parse_args(argv))
     seed, out = arguments.pop("seed"), arguments.pop("out")
     if seed < 0:
         parser.exit(2, f"error: --seed {seed}: give 0 or more\n")
     try:
-        text = write_site(make_home(seed), Options(**arguments))
+        faults = tuple(read_fault(text) for text in arguments.pop("fault"))
+        text = write_site(make_home(seed), Options(faults=faults, **arguments))
         parse_site(tomllib.loads(text), "the options")
         if out is None:
             sys.stdout.write(text)

@@ -23,6 +23,8 @@ class Options:
     view_port: int = 9876
     save: str = ""
     smart_appliances: bool = False
+    faults: tuple[dict[str, Value], ...] = ()
+    """Rows of `[[sim.fault]]`."""
 
 
 def write_site(scene: Scene, options: Options | None = None) -> str:
@@ -40,6 +42,7 @@ def write_site(scene: Scene, options: Options | None = None) -> str:
         _table("[planner]", {"name": options.planner}),
         _table("[view]", {"grpc_port": options.view_port, "save": options.save}),
         _table("[sim]", {"seed": scene.seed, "smart_appliances": options.smart_appliances}),
+        *(_table("[[sim.fault]]", row) for row in options.faults),
         *(_room(room) for room in scene.rooms),
         *(_wall(wall) for wall in scene.walls),
         *(_door(door) for door in scene.doors),
@@ -51,6 +54,27 @@ def write_site(scene: Scene, options: Options | None = None) -> str:
         *(_table("[[process]]", row) for row in _processes(len(cameras), options.robots)),
     ]
     return "\n".join(tables)
+
+
+def read_fault(text: str) -> dict[str, Value]:
+    """A row of `[[sim.fault]]` from DEVICE:KIND[:VALUE]: probability, seconds of delay, or property. ValueError."""
+    device, _, rest = text.partition(":")
+    kind, _, value = rest.partition(":")
+    field = {"frame_loss": "probability", "delay": "delay_s", "wrong_state": "prop"}.get(kind)
+    if field is None:
+        raise ValueError(
+            f"fault '{text}': give DEVICE:KIND[:VALUE], as in cam-1:frame_loss:0.3 (a probability), "
+            "cam-1:delay:0.5 (seconds) or television-1:wrong_state:isToggled (a property)"
+        )
+    row: dict[str, Value] = {"device": device, "kind": kind}
+    if value and field == "prop":
+        row[field] = value
+    elif value:
+        try:
+            row[field] = float(value)
+        except ValueError:
+            raise ValueError(f"fault '{text}': {value} is no number") from None
+    return row
 
 
 def _processes(cameras: int, robots: int) -> list[dict[str, Value]]:

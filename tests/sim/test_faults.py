@@ -8,6 +8,7 @@ from wire.messages.driver import (
     CameraFrame,
     DeviceReport,
 )
+from wire.site import SiteError
 
 
 @pytest.fixture
@@ -30,6 +31,8 @@ def test_smart_appliances_report_and_a_fault_turns_the_report_round(make_mesh):
     assert reports() == [0.0, 1.0]
     wrong = [{"device": "television-1", "kind": "wrong_state", "prop": "isToggled"}]
     assert reports(fault=wrong) == [1.0, 0.0]
+    with pytest.raises(SiteError, match=r"this home has no television-2; it has .*television-1"):
+        reports(fault=[{"device": "television-2", "kind": "wrong_state"}])
 
 
 def test_lost_and_late_pictures(make_mesh):

@@ -44,6 +44,29 @@ def test_no_word_of_objects() -> None:
     assert "cctv-" not in text
 
 
+def test_faults_are_written_and_checked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "site.toml"
+    faults = ("cam-1:frame_loss:0.3", "dog-1:delay:0.5", "fridge-1:wrong_state")
+    assert main(["--seed", "7", "--out", str(out), "--smart-appliances", *(f"--fault={f}" for f in faults)]) == 0
+    sim = load_site(out).sim
+    assert sim is not None
+    assert sim.smart_appliances
+    assert [(f.device, f.kind, f.probability, f.delay_s, f.prop) for f in sim.fault] == [
+        ("cam-1", "frame_loss", 0.3, 0.0, None),
+        ("dog-1", "delay", 1.0, 0.5, None),
+        ("fridge-1", "wrong_state", 1.0, 0.0, None),
+    ]
+    for wrong, said in (
+        ("cam-1:frameloss", "give DEVICE:KIND"),
+        ("cam-1:delay:soon", "soon is no number"),
+        ("cam-77:frame_loss", "sim.fault.0.device: cam-77 takes no pictures"),
+        ("fridge-1:wrong_state", "set sim.smart_appliances"),
+    ):
+        with pytest.raises(SystemExit):
+            main(["--seed", "7", "--out", str(out), f"--fault={wrong}"])
+        assert said in capsys.readouterr().err
+
+
 def test_too_many_robots() -> None:
     with pytest.raises(ValueError, match="99 robots"):
         write_site(make_home(3), Options(robots=99))

@@ -76,6 +76,40 @@ def test_a_typo_is_named_with_its_place(wrong: str, right: str, named: str, tmp_
     assert f": {named}" in fault(GOOD.replace(wrong, right, 1), tmp_path)
 
 
+SIMULATED = GOOD + "[sim]\nseed = 1\nsmart_appliances = true\n[[sim.fault]]\n"
+
+
+@pytest.mark.parametrize(
+    ("row", "named"),
+    [
+        ('device = "cam-77"\nkind = "frame_loss"', "device: cam-77 takes no pictures; those that do are cam-1"),
+        ('device = "cam-1"\nkind = "delay"', "delay_s: a delay needs a time above 0 s"),
+        ('device = "sofa-1"\nkind = "wrong_state"', "device: sofa-1 reports no state; appliances are called"),
+        ('device = "cam-1"\nkind = "wrong_state"', "device: cam-1 reports no state"),
+        (
+            'device = "fridge-1"\nkind = "wrong_state"\nprop = "isToggled"',
+            "prop: fridge-1 does not report isToggled; it reports isOpen",
+        ),
+    ],
+)
+def test_a_fault_that_would_never_happen_is_refused(row: str, named: str, tmp_path: Path) -> None:
+    assert f": sim.fault.0.{named}" in fault(SIMULATED + row, tmp_path)
+
+
+def test_wrong_states_need_appliances_that_report(tmp_path: Path) -> None:
+    row = 'device = "television-1"\nkind = "wrong_state"\nprop = "isToggled"'
+    (tmp_path / "good.toml").write_text(SIMULATED + row)
+    assert load_site(tmp_path / "good.toml").sim is not None
+    assert "sim.fault.0.kind: no appliance reports" in fault(SIMULATED.replace("true", "false") + row, tmp_path)
+
+
+def test_without_a_simulator_time_is_the_walls(tmp_path: Path) -> None:
+    (tmp_path / "good.toml").write_text(GOOD)
+    assert load_site(tmp_path / "good.toml").clock.mode == "wall"
+    told = GOOD.replace("[[room]]", '[clock]\nmode = "lockstep"\n[[room]]', 1)
+    assert "clock.mode: lockstep needs a process with the role sim" in fault(told, tmp_path)
+
+
 def test_an_id_twice(tmp_path: Path) -> None:
     twice = GOOD + '[[process]]\nid = "hub"\nrole = "hub"\nmodule = "hub"\n'
     assert "process: the id hub stands there 2 times" in fault(twice, tmp_path)

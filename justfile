@@ -32,7 +32,7 @@ test *args: install
 install:
     ./deploy/install.sh
 
-# start a site's mesh under supervision (default: a generated home; --seed N)
+# start a site's mesh under supervision (default: a generated home; --seed N, --port N)
 [group('mesh')]
 up *args: install
     {{ python }} -m console up "$@"
@@ -47,7 +47,7 @@ down *args: install
 status *args: install
     {{ python }} -m console status "$@"
 
-# what processes say: logs [NAME] [-f]
+# what processes say: logs [NAME] [-f] (--json)
 [group('mesh')]
 logs *args: install
     {{ python }} -m console logs "$@"
@@ -87,22 +87,22 @@ resume *args: install
 cancel *args: install
     {{ python }} -m console cancel "$@"
 
-# the fused world, live in a browser (prints the address) or in a window where there is a display
+# the fused world, live in a browser (prints the address) or in a window where there is a display (--json)
 [group('watch')]
 view *args: install
     {{ python }} -m console view "$@"
 
-# record what the view shows: record FILE.rrd
+# record what the view shows: record FILE.rrd (--json)
 [group('watch')]
 record *args: install
     {{ python }} -m console record "$@"
 
-# list the site files there are
+# list the site files there are; `up NAME` starts one (--json)
 [group('sites')]
 sites *args: install
     {{ python }} -m console sites "$@"
 
-# write the site file of a generated home: home --seed N --out FILE
+# write the site file of a generated home: home --seed N --out FILE (--fault, --smart-appliances)
 [group('sites')]
 home *args: install
     {{ python }} -m sim.generator "$@"

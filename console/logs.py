@@ -1,6 +1,7 @@
 """What processes say: their log files, each line with its process's name before it."""
 
 import itertools
+import json
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,12 +13,18 @@ from console.output import terminal
 _COLOURS = ("cyan", "green", "yellow", "magenta", "blue", "red", "bright_cyan", "bright_green", "bright_yellow")
 
 
-def show_logs(files: list[Path], follow: bool, lines: int) -> None:
-    """Print the last lines of every file and, when following, what is added until Ctrl-C."""
+def show_logs(files: list[Path], follow: bool, lines: int, as_json: bool) -> None:
+    """Print the last lines of every file and, when following, what is added until Ctrl-C.
+
+    As JSON each line is an object with `process` and `line`.
+    """
     width = max((len(f.stem) for f in files), default=0)
     styles = dict(zip((f.stem for f in files), itertools.cycle(_COLOURS), strict=False))
 
     def show(name: str, line: str) -> None:
+        if as_json:
+            print(json.dumps({"process": name, "line": line.rstrip("\n")}), flush=True)
+            return
         terminal.print(Text.assemble((f"{name:>{width}} | ", styles[name]), line.rstrip("\n")))
 
     for file in files:

@@ -11,9 +11,11 @@ from console.logs import show_logs
 from console.output import emit, fail, terminal
 from console.places import current_mesh, known_sites, prepare
 from deploy.launch import LaunchError, Mesh, ProcessInfo
-from wire.site import SiteError, load_site
+from wire.access import devices_of
+from wire.site import Site, SiteError, load_site
 
 Json = Annotated[bool, typer.Option("--json", help="print one JSON document instead of text")]
+LineJson = Annotated[bool, typer.Option("--json", help="print one JSON object a line instead of text")]
 
 
 def register(app: typer.Typer) -> None:
@@ -24,11 +26,14 @@ def register(app: typer.Typer) -> None:
 def up(
     site: Annotated[str | None, typer.Argument(help="a site file, or a name that `sites` lists")] = None,
     seed: Annotated[int, typer.Option(help="without SITE: the generated home with this seed")] = 7,
+    port: Annotated[
+        int | None, typer.Option(help="of the router, instead of the site file's", min=1, max=65535)
+    ] = None,
     json_: Json = False,
 ) -> None:
     """Start a site's mesh under supervision and wait until every process has announced itself."""
     try:
-        ready = bring_up(prepare(site, seed), quiet=json_)
+        ready = bring_up(prepare(site, seed, port), quiet=json_)
     except (SiteError, LaunchError) as error:
         fail(str(error), json_, 2 if isinstance(error, SiteError) else 1)
     document = {
@@ -58,55 +63,71 @@ def status(json_: Json = False) -> None:
     try:
         mesh = current_mesh()
         rows = mesh.processes()
-        here = _announced(mesh)
+        site = load_site(mesh.site_file)
+        here = _announced(mesh, site)
     except (SiteError, LaunchError) as error:
         fail(str(error), json_)
+    devices = device_names(site)
     document = {
         "ok": all(row.state == "RUNNING" for row in rows),
         "run_dir": str(mesh.run_dir),
         "processes": [
-            {"id": r.id, "state": r.state.lower(), "pid": r.pid, "up_s": r.up_s, "announced": r.id in here}
+            {
+                "id": r.id,
+                "device": devices.get(r.id),
+                "state": r.state.lower(),
+                "pid": r.pid,
+                "up_s": r.up_s,
+                "announced": r.id in here,
+            }
             for r in rows
         ],
     }
-    emit(document, "\n".join(_line(row, row.id in here) for row in rows), json_)
+    emit(document, "\n".join(_line(row, devices.get(row.id, ""), row.id in here) for row in rows), json_)
 
 
-def _announced(mesh: Mesh) -> set[str]:
+def device_names(site: Site) -> dict[str, str]:
+    """Process -> the camera or robot that it serves, as `why` and the view call it."""
+    served = {process.id: devices_of(process) for process in site.process}
+    return {process: devices[-1] for process, devices in served.items() if devices}
+
+
+def _announced(mesh: Mesh, site: Site) -> set[str]:
     """Processes whose liveliness tokens are there; none when the router cannot be reached."""
     try:
-        site = load_site(mesh.site_file)
         routers = {p.id for p in site.process if p.role == "router"}  # who answers at all has a router
         return presence(site, mesh.credentials_dir) | routers
     except ClientError:
         return set()
 
 
-def _line(row: ProcessInfo, announced: bool) -> str:
+def _line(row: ProcessInfo, device: str, announced: bool) -> str:
     since = f"{row.up_s:6.0f} s" if row.state == "RUNNING" else f"{row.text}"
-    return f"{row.id:<12} {row.state.lower():<9} {'announced' if announced else '-':<10} {since}"
+    return f"{row.id:<12} {device:<10} {row.state.lower():<9} {'announced' if announced else '-':<10} {since}"
 
 
 def logs(
     name: Annotated[str | None, typer.Argument(help="one process; all when left out")] = None,
     follow: Annotated[bool, typer.Option("-f", "--follow", help="go on until Ctrl-C")] = False,
     lines: Annotated[int, typer.Option("-n", help="how many past lines of each")] = 20,
+    json_: LineJson = False,
 ) -> None:
     """Show what processes say, each line with its process's name."""
     try:
         mesh = current_mesh()
     except SiteError as error:
-        fail(str(error))
+        fail(str(error), json_)
     files: list[Path] = sorted(mesh.log_dir.glob("*.log"))
     if name is not None:
         files = [f for f in files if f.stem == name]
         if not files:
             known = ", ".join(sorted(f.stem for f in mesh.log_dir.glob("*.log")))
-            fail(f"no process '{name}' has written a log here; there are: {known}")
+            fail(f"no process '{name}' has written a log here; there are: {known}", json_)
     try:
-        show_logs(files, follow, lines)
+        show_logs(files, follow, lines, json_)
     except KeyboardInterrupt:
-        terminal.print("")
+        if not json_:
+            terminal.print("")
 
 
 def restart(name: Annotated[str, typer.Argument(help="the process")], json_: Json = False) -> None:

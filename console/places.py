@@ -1,5 +1,6 @@
 """Where meshes live on this machine: run directories under .run/, the newest one current."""
 
+import re
 import shutil
 import socket
 import subprocess
@@ -7,10 +8,12 @@ import sys
 from pathlib import Path
 
 from deploy.launch import LaunchError, Mesh
+from deploy.ports import is_free
 from wire.site import Site, SiteError, load_site
 
 RUN = Path(".run")
 SITES = Path("deploy/sites")
+ROUTER_PORT, VIEW_PORT = 7447, 9876
 _CURRENT = RUN / "current"
 
 
@@ -29,13 +32,51 @@ def known_sites() -> list[Path]:
     return sorted(SITES.glob("*.toml"))
 
 
-def prepare(name_or_path: str | None, seed: int) -> Path:
-    """Find the site file that is meant; without one, write that of the generated home with this seed."""
+def prepare(name_or_path: str | None, seed: int, port: int | None) -> Path:
+    """Find the site file that is meant; without one, write that of the generated home with this seed.
+
+    The home takes the usual ports where they are free. `port`: of the router, instead of the one that the file says.
+    """
     if name_or_path is None:
-        return generate_home(seed, RUN / f"home-{seed}" / "site.toml")
+        return _home_of(seed, port)
     path = Path(name_or_path)
     named = SITES / f"{name_or_path}.toml"
-    return named if not path.exists() and named.exists() else path
+    found = named if not path.exists() and named.exists() else path
+    return found if port is None else _on_port(found, port)
+
+
+def _home_of(seed: int, port: int | None) -> Path:
+    folder = RUN / f"home-{seed}"
+    _refuse_if_up(Mesh(folder), folder.name)  # the file that it runs from stays as it is
+    router = free_port(ROUTER_PORT) if port is None else port
+    view = free_port(VIEW_PORT)
+    return generate_home(seed, folder / "site.toml", "--port", str(router), "--view-port", str(view))
+
+
+def _on_port(file: Path, port: int) -> Path:
+    """A copy of a site file with the router, and where it must the view, on another port."""
+    site = load_site(file)
+    folder = RUN / site.name
+    _refuse_if_up(Mesh(folder), site.name)
+    host = site.router.endpoint.rpartition(":")[0]
+    text = with_value(file.read_text(), "router", "endpoint", f'"{host}:{port}"')
+    text = with_value(text, "view", "grpc_port", str(free_port(site.view.grpc_port)))
+    folder.mkdir(parents=True, exist_ok=True)
+    copy = folder / "site.toml"
+    copy.write_text(text)
+    return copy
+
+
+def with_value(toml: str, table: str, key: str, value: str) -> str:
+    """The text of a TOML file with one value of one table replaced or added."""
+    toml = toml.rstrip() + "\n"
+    head = re.search(rf"^\[{table}\][^\n]*\n", toml, re.MULTILINE)
+    if head is None:
+        return f"{toml}\n[{table}]\n{key} = {value}\n"
+    end = re.compile(r"^\[", re.MULTILINE).search(toml, head.end())
+    body = toml[head.end() : end.start() if end else None]
+    rest = re.sub(rf"^\s*{key}\s*=[^\n]*\n", "", body, flags=re.MULTILINE)
+    return toml[: head.end()] + f"{key} = {value}\n" + rest + (toml[end.start() :] if end else "")
 
 
 def generate_home(seed: int, out: Path, *options: str) -> Path:
@@ -55,8 +96,7 @@ def install_site(path: Path) -> tuple[Site, Mesh]:
     run_dir = RUN / site.name
     run_dir.mkdir(parents=True, exist_ok=True)
     mesh = Mesh(run_dir)
-    if mesh.is_up():
-        raise LaunchError(f"the mesh of {site.name} already runs; `justw down` stops it")
+    _refuse_if_up(mesh, site.name)
     if path.resolve() != mesh.site_file:
         shutil.copyfile(path, mesh.site_file)
     if site.sim is not None:
@@ -72,7 +112,15 @@ def _forget(run_dir: Path) -> None:
         file.unlink()
 
 
-def free_port() -> int:
+def _refuse_if_up(mesh: Mesh, name: str) -> None:
+    if mesh.is_up():
+        raise LaunchError(f"the mesh of {name} already runs; `justw down` stops it")
+
+
+def free_port(preferred: int = 0) -> int:
+    """The preferred port when it is free, else any free one."""
+    if preferred and is_free(preferred):
+        return preferred
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]

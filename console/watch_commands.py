@@ -3,8 +3,11 @@
 import json
 import os
 import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Annotated, Any
+from urllib.parse import quote
 
 import typer
 
@@ -12,11 +15,10 @@ from console.client import ClientError
 from console.demo import demonstrate, summary_text
 from console.mesh_commands import Json
 from console.output import WordsError, emit, fail, terminal
-from console.places import current_mesh
+from console.places import current_mesh, free_port
+from console.viewer import RERUN, quiet_environment
 from deploy.launch import LaunchError
 from wire.site import Site, SiteError, load_site
-
-RERUN = Path(".venv/bin/rerun")
 
 
 def register(app: typer.Typer) -> None:
@@ -97,54 +99,80 @@ def _live() -> tuple[Site, str]:
 
 def view(
     native: Annotated[bool, typer.Option("--native", help="a window instead of the browser")] = False,
+    json_: Json = False,
 ) -> None:
     """Show the fused world live: in a browser (prints the address), or in a window where there is a display."""
     try:
         site, url = _live()
     except (SiteError, LaunchError) as error:
-        fail(str(error))
+        fail(str(error), json_)
     has_display = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
     if native and not has_display:
-        fail("there is no display here: neither DISPLAY nor WAYLAND_DISPLAY is set; leave --native out for the browser")
-    if native:
-        raise typer.Exit(subprocess.call([RERUN, url]))
-    page = (
-        f"http://127.0.0.1:{site.view.web_port}/?url={url.replace('+', '%2B').replace(':', '%3A').replace('/', '%2F')}"
-    )
-    terminal.print(f"open {page}\n(Ctrl-C ends the viewer, the mesh stays up)", markup=False)
-    command = [str(RERUN), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(site.view.web_port), url]
-    try:
-        raise typer.Exit(subprocess.call(command))
-    except KeyboardInterrupt:
-        raise typer.Exit(0) from None
+        fail(
+            "there is no display here: neither DISPLAY nor WAYLAND_DISPLAY is set; leave --native out for the browser",
+            json_,
+        )
+    with quiet_environment() as environment:
+        if native:
+            raise typer.Exit(subprocess.call([RERUN, url], env=environment))
+        port = free_port(site.view.web_port)
+        page = f"http://127.0.0.1:{port}/?url={quote(url, safe='')}"
+        emit({"ok": True, "page": page, "url": url}, f"open {page}\n(Ctrl-C ends the viewer, the mesh stays up)", json_)
+        sys.stdout.flush()
+        command = [RERUN, "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port), url]
+        try:
+            raise typer.Exit(subprocess.call(command, env=environment))
+        except KeyboardInterrupt:
+            raise typer.Exit(0) from None
 
 
 def record(
     file: Annotated[Path, typer.Argument(help="the recording to write, .rrd")],
+    json_: Json = False,
 ) -> None:
     """Record what the view shows, from now until Ctrl-C."""
     try:
         _, url = _live()
         file.parent.mkdir(parents=True, exist_ok=True)
     except (SiteError, LaunchError) as error:
-        fail(str(error))
+        fail(str(error), json_)
     except OSError as error:
-        fail(f"{file} cannot be written: {error.strerror}")
+        fail(f"{file} cannot be written: {error.strerror}", json_)
     if file.suffix != ".rrd":
-        fail(f"{file}: the name of a recording ends in .rrd", code=2)
-    terminal.print(f"recording to {file} until Ctrl-C", markup=False)
+        fail(f"{file}: the name of a recording ends in .rrd", json_, 2)
+    if not json_:
+        terminal.print(f"recording to {file} until Ctrl-C", markup=False)
+    began = time.monotonic()
+    fault = _record(file, url)
+    if fault:
+        fail(fault, json_)
+    seconds, size = round(time.monotonic() - began, 1), file.stat().st_size
+    emit(
+        {"ok": True, "file": str(file), "bytes": size, "seconds": seconds},
+        f"wrote {file}: {size / 1e6:.1f} MB in {seconds} s",
+        json_,
+    )
+
+
+def _record(file: Path, url: str) -> str:
+    """Record until Ctrl-C or the end of the stream; returns what went wrong, or nothing."""
     raw = file.with_suffix(".part.rrd")
-    process = subprocess.Popen([RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"])
-    try:
-        code = process.wait()
-    except KeyboardInterrupt:
-        process.terminate()
-        code = process.wait()
-    if not raw.exists():
-        fail(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
-    # A stream that is cut has no footer; this writes it.
-    whole = [str(RERUN), "rrd", "optimize", str(raw), "-o", str(file)]
-    if subprocess.run(whole, check=False, capture_output=True).returncode != 0:
-        fail(f"{file} cannot be written; what was recorded lies in {raw}")
+    with quiet_environment() as environment:
+        process = subprocess.Popen(
+            [RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"],
+            env=environment,
+            stdout=subprocess.DEVNULL,
+        )
+        try:
+            code = process.wait()
+        except KeyboardInterrupt:
+            process.terminate()
+            code = process.wait()
+        if not raw.exists():
+            return f"nothing was recorded: does the mesh run? (rerun ended with {code})"
+        # A stream that is cut has no footer; this writes it.
+        whole = [RERUN, "rrd", "optimize", str(raw), "-o", str(file)]
+        if subprocess.run(whole, check=False, capture_output=True, env=environment).returncode != 0:
+            return f"{file} cannot be written; what was recorded lies in {raw}"
     raw.unlink()
-    terminal.print(f"wrote {file}", markup=False)
+    return ""

@@ -17,6 +17,7 @@ from typing import Any
 
 from supervisor.xmlrpc import SupervisorTransport
 
+from deploy.ports import taken_ports
 from deploy.supervisord import Places, render
 from wire.access import write_credentials
 from wire.site import Site
@@ -36,6 +37,8 @@ class ProcessInfo:
     state: str
     pid: int
     up_s: float
+    cpu_s: float
+    """Processor time so far."""
     exit_code: int
     text: str
 
@@ -71,6 +74,8 @@ class Mesh:
         """Start every `autostart` process of the site whose host is this one."""
         if self.is_up():
             raise LaunchError(f"a mesh already runs from {self.run_dir}; `justw down` stops it")
+        if taken := "; ".join(taken_ports(site)):
+            raise LaunchError(taken)
         self.log_dir.mkdir(parents=True, exist_ok=True)
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)
         self._socket.unlink(missing_ok=True)
@@ -108,7 +113,8 @@ class Mesh:
             ProcessInfo(
                 id=row["name"], state=row["statename"], pid=row["pid"],
                 up_s=float(row["now"] - row["start"]) if row["statename"] == "RUNNING" else 0.0,
-                exit_code=row["exitstatus"], text=row["description"] or row["spawnerr"],
+                cpu_s=_cpu_s(row["pid"]), exit_code=row["exitstatus"],
+                text=row["description"] or row["spawnerr"],
             )
             for row in rows
         ]  # fmt: skip
@@ -167,3 +173,12 @@ class Mesh:
             ) from None
         except OSError:
             raise LaunchError(f"no mesh runs from {self.run_dir} any more; `justw up` starts one") from None
+
+
+def _cpu_s(pid: int) -> float:
+    """Processor time of a process so far; 0 for one that has ended."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -88,13 +88,17 @@ def test_crashed_process_comes_back_and_stop_leaves_nothing(mesh: tuple[Mesh, Si
     assert not any(_alive(pid) for pid in pids)
 
 
-def test_killed_supervisor_leaves_no_orphans(mesh: tuple[Mesh, Site]) -> None:
+def test_killed_supervisor_leaves_no_orphans_and_is_said_to_be_gone(mesh: tuple[Mesh, Site], tmp_path: Path) -> None:
     launch, site = mesh
     launch.start(site)
     _wait(lambda: _running(launch))
     pids = [p.pid for p in launch.processes()]
     os.kill(int((launch.run_dir / "supervisord.pid").read_text()), signal.SIGKILL)
     _wait(lambda: not any(_alive(pid) for pid in pids))
+    (tmp_path / ".run").mkdir()
+    (tmp_path / ".run" / "current").symlink_to(tmp_path)
+    for words in (("status",), ("task", "turn off the tv"), ("why", "tv"), ("stop",), ("view",)):
+        assert f"no mesh runs from {tmp_path} any more; `justw up` starts one" in _console(tmp_path, *words).stderr
 
 
 def test_a_supervisor_killed_while_its_processes_load_leaves_no_orphans(mesh: tuple[Mesh, Site]) -> None:
@@ -155,7 +159,10 @@ def test_a_second_mesh_that_fails_does_not_hide_the_first(tmp_path: Path, free_p
         assert _console(tmp_path, "up", str(first)).returncode == 0
         again = _console(tmp_path, "up", str(first))
         assert "already runs" in again.stderr
-        assert _console(tmp_path, "up", str(second)).returncode == 1
+        done = _console(tmp_path, "up", str(second))
+        assert done.returncode == 1
+        assert f"port {free_port} (router.endpoint) is taken by the mesh of mini" in done.stderr
+        assert "--port" in done.stderr
         assert "planner" in _console(tmp_path, "status").stdout
         for words in (("task", ""), ("task", "x" * 3000), ("why", "x" * 300), ("cancel", "A B")):
             done = _console(tmp_path, *words, "--json")

@@ -9,8 +9,11 @@ from console.mesh_commands import Json
 from console.output import WordsError, checked, emit, fail
 from console.places import current_mesh
 from console.task import run_task, task_document, task_text
-from wire.messages.operator import ControlReply, ControlRequest, WhyReply, WhyRequest
+from deploy.launch import LaunchError
+from wire.messages.operator import Claim, ControlReply, ControlRequest, WhyReply, WhyRequest
 from wire.site import SiteError, load_site
+
+FAULTS = (SiteError, LaunchError, ClientError, WordsError)
 
 
 def register(app: typer.Typer) -> None:
@@ -19,8 +22,9 @@ def register(app: typer.Typer) -> None:
 
 
 def open_client() -> Client:
-    """A client of the current mesh."""
+    """A client of the current mesh. Raises SiteError, LaunchError where none runs."""
     mesh = current_mesh()
+    mesh.processes()  # whether it runs: a router that is not there would be blamed on its passwords
     return Client(load_site(mesh.site_file), mesh.credentials_dir)
 
 
@@ -33,7 +37,7 @@ def task(
     try:
         with open_client() as client:
             final = run_task(client, instruction, limit_s, quiet=json_)
-    except (SiteError, ClientError, WordsError) as error:
+    except FAULTS as error:
         fail(str(error), json_)
     emit(task_document(final), task_text(final), json_)
     if final.status != "done":
@@ -45,11 +49,25 @@ def why(thing: Annotated[str, typer.Argument(help="an object: words or its id")]
     try:
         with open_client() as client:
             reply = client.ask("why", checked(WhyRequest, object=thing), WhyReply)
-    except (SiteError, ClientError, WordsError) as error:
+    except FAULTS as error:
         fail(str(error), json_)
-    emit(reply.model_dump(mode="json"), reply.text, json_)
+    emit(reply.model_dump(mode="json"), why_text(reply), json_)
     if not reply.entries:
         raise typer.Exit(1)
+
+
+def why_text(reply: WhyReply) -> str:
+    """Each thing's sentence, and under it every source's claim; the text of the answer when there is no thing."""
+    lines: list[str] = []
+    for entry in reply.entries:
+        lines += [entry.text, *(_claim_text(claim, reply.now_s) for claim in entry.claims)]
+    return "\n".join(lines) or reply.text
+
+
+def _claim_text(claim: Claim, now_s: float) -> str:
+    age_s = max(now_s - claim.stamp_s, 0.0)
+    mark = "CONTRADICTS " if claim.contradicts else ""
+    return f"  {mark}{claim.source}: {claim.text}, {100.0 * claim.confidence:.0f} % sure, {age_s:.0f} s ago"
 
 
 def _control(verb: str, json_: bool, task: str | None = None) -> None:
@@ -57,7 +75,7 @@ def _control(verb: str, json_: bool, task: str | None = None) -> None:
         request = checked(ControlRequest, verb=verb, task=task)
         with open_client() as client:
             reply = client.ask("control", request, ControlReply)
-    except (SiteError, ClientError, WordsError) as error:
+    except FAULTS as error:
         fail(str(error), json_)
     if not reply.ok:
         fail(reply.text, json_)

@@ -25,6 +25,7 @@ class FloorPlan:
     """Rooms and doors of a site; points are looked up through a cache of 0.1 m squares."""
 
     def __init__(self, site: Site) -> None:
+        self.rooms = site.room
         self.polygons: dict[str, tuple[Vec2, ...]] = {room.id: room.polygon_m for room in site.room}
         self.doors = tuple(_doorway(d.id, d.rooms, d.start_m, d.end_m) for d in site.door)
         self._cache: dict[tuple[int, int], str | None] = {}

@@ -1,45 +1,99 @@
-"""Where is it believed to be, who said so, when, how sure, and who says otherwise."""
+"""Where is it believed to be, who said so, when, how sure, and who says otherwise. Takes the words that tasks take."""
 
 import re
+from difflib import get_close_matches
+from math import exp
 
 from hub.containment import hidden
 from hub.records import Fact, Thing
 from hub.showing import confidence, state
 from hub.world import World
+from wire.catalogue import catalogue
 from wire.messages.operator import Claim, WhyEntry, WhyReply
+from wire.names import classes, names_of, plural, room_names, spaced
 
 _MOST = 12
+_LONGEST_PHRASE = 4
+_ALIKE = 0.75
+"""From this likeness on, a name may be a misspelling of another."""
 
 
 def why(world: World, words: str, now_s: float) -> WhyReply:
     """Answer for an id or for words such as "mug in the kitchen"."""
     things = find(world, words)
-    entries = tuple(WhyEntry(state=state(t, now_s), claims=tuple(claims(world, t, now_s))[:64]) for t in things[:_MOST])
-    if not things:
-        known = sorted({t.type for t in world.things if t.shown >= 0})
-        text = f"nothing known of '{words}'; known are {', '.join(known) if known else 'no objects yet'}"
-    else:
-        text = "\n".join(tell(world, t, now_s) for t in things[:_MOST])
+    entries = tuple(
+        WhyEntry(state=state(t, now_s), claims=tuple(claims(world, t, now_s))[:64], text=tell(world, t, now_s))
+        for t in things[:_MOST]
+    )
+    text = "\n".join(entry.text for entry in entries) if entries else _nothing(world, words)
     return WhyReply(now_s=now_s, entries=entries, text=text[:2000])
 
 
 def find(world: World, words: str) -> list[Thing]:
     """Things meant by an id, or by a type and perhaps a room."""
-    asked = words.strip().lower()
-    exact = world.things.get(asked)
+    exact = world.things.get(words.strip().lower())
     if exact is not None:
         return [exact]
-    plain = " " + re.sub(r"[^a-z0-9]+", " ", asked) + " "
-    rooms = [id for id in world.floor.polygons if f" {id.replace('-', ' ')} " in plain]
-    found = [t for t in world.things if t.shown >= 0 and _named(t.type, plain)]
-    if rooms:
-        found = [t for t in found if t.room in rooms]
+    types, rooms = _meant(world, words)
+    found = [t for t in _shown(world) if t.type in types and (not rooms or t.room in rooms)]
     return sorted(found, key=lambda t: t.id)
 
 
-def _named(type: str, plain: str) -> bool:
-    spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type).lower()
-    return any(f" {name}{end} " in plain for name in {spaced, type.lower()} for end in ("", "s", "es"))
+def _shown(world: World) -> list[Thing]:
+    return [t for t in world.things if t.shown >= 0]
+
+
+def _meant(world: World, words: str) -> tuple[set[str], set[str]]:
+    """The object types and the rooms that these words name. The longest name counts: a TV stand is no TV."""
+    rooms = _room_names(world)
+    nouns = {form: types for name, types in _type_names(world).items() for form in (name, plural(name))}
+    types: set[str] = set()
+    places: set[str] = set()
+    pieces = re.findall(r"[^\W_]+", words.lower())
+    while pieces:
+        for size in range(min(_LONGEST_PHRASE, len(pieces)), 0, -1):
+            phrase = " ".join(pieces[:size])
+            if phrase in nouns or phrase in rooms:
+                types |= nouns.get(phrase, set())
+                places |= rooms.get(phrase, set())
+                break
+        del pieces[:size]
+    return types, places
+
+
+def _type_names(world: World) -> dict[str, set[str]]:
+    """Phrase in the singular -> types."""
+    named: dict[str, set[str]] = {}
+    for type in {*catalogue(), *(t.type for t in world.things)}:
+        for name in {*names_of(type), type.lower()}:
+            named.setdefault(name, set()).add(type)
+    for word, types in classes().items():
+        named.setdefault(word, set()).update(types)
+    return named
+
+
+def _room_names(world: World) -> dict[str, set[str]]:
+    named: dict[str, set[str]] = {}
+    for room in world.floor.rooms:
+        for name in {room.name.lower(), room.id.replace("-", " "), *room_names(room.kind)}:
+            named.setdefault(name, set()).add(room.id)
+    return named
+
+
+def _nothing(world: World, words: str) -> str:
+    """Why nothing was found: not seen, not there, or not spelled so."""
+    seen = sorted({spaced(t.type) for t in _shown(world)})
+    known = ", ".join(seen) or "no objects yet"
+    types, rooms = _meant(world, words)
+    if types:
+        sought = " or ".join(sorted(spaced(type) for type in types))
+        return f"no {sought} is known{' in ' + ' or '.join(sorted(rooms)) if rooms else ''}; known are {known}"
+    names = [*_type_names(world), *world.things.by_id]
+    tried = [words.lower(), *(word for word in words.lower().split() if len(word) > 2)]
+    near = next((found for text in tried if (found := get_close_matches(text, names, n=1, cutoff=_ALIKE))), None)
+    if near:
+        return f"nothing known of '{words}'; is {near[0]} meant?"
+    return f"nothing known of '{words}'; known are {known}"
 
 
 def tell(world: World, thing: Thing, now_s: float) -> str:
@@ -65,7 +119,9 @@ def claims(world: World, thing: Thing, now_s: float) -> list[Claim]:
         Claim(
             source=source,
             stamp_s=max(sight.stamp_s, sight.absent_s, 0.0),
-            confidence=min(max(sight.confidence, 0.0), 1.0),
+            confidence=min(max(sight.confidence, 0.0), 1.0)
+            if sight.support >= 0.0
+            else 1.0 / (1.0 + exp(sight.support)),
             text=f"saw it {sight.hits} times" if sight.support > 0.0 else "looked and did not see it",
             contradicts=sight.support < 0.0,
         )

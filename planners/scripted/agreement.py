@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from planners.scripted.lexicon import called
 from planners.scripted.syntax import Unclear
 from wire.messages.goal import Goal, Selector
+from wire.names import called
 
 OPPOSED = {("open", "closed"), ("closed", "open"), ("on", "off"), ("off", "on")}
 

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from planners.scripted.lexicon import called
 from planners.scripted.resolve import Resolver, one_of
 from planners.scripted.syntax import Group, Groups, LeftOut, Place, Thing, Unclear
 from wire.messages.goal import Selector
+from wire.names import called
 
 
 def leave_out(

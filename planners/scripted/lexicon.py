@@ -5,9 +5,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from planners.scripted.fuzzy import closest
-from planners.scripted.vocabulary import Phrase, fixed_phrases, plural, tables
+from planners.scripted.vocabulary import Phrase, fixed_phrases, tables
 from wire.catalogue import catalogue, modelled_types
 from wire.messages.world import WorldState
+from wire.names import classes, collectives, names_of, plural, room_names
 
 LONGEST_PHRASE = 6
 _WORD = re.compile(r"(?P<word>[^\W_]+(?:['_-][^\W_]+)*)|(?P<mark>[^\s\"“”()])")
@@ -57,14 +58,13 @@ class Lexicon:
 
     def _add_types(self, present: set[str]) -> None:
         known = present | set(modelled_types())
-        names = tables()["name"]
         for name in sorted(catalogue(), key=lambda n: (n in known, n)):
             kind = "NOUN" if name in known else "UNSEEN"
-            for base in {*names.get(name, ()), spaced(name)}:
+            for base in names_of(name):
                 self._add_noun(base, Meaning(kind, base, (name,)))
-        for base, types in tables()["class"].items():
+        for base, types in classes().items():
             self._add_noun(base, Meaning("NOUN", base, types))
-        for base in tables()["collective"]["words"]:
+        for base in collectives():
             types = self._table[tuple(base.split())].types
             self._table[tuple(base.split())] = Meaning("NOUN", base, types, plural=True)
 
@@ -76,7 +76,7 @@ class Lexicon:
     def _add_rooms(self, world: WorldState) -> None:
         rooms: dict[Phrase, list[str]] = {}
         for area in world.areas:
-            for base in {area.name.lower(), area.id.replace("-", " "), *tables()["room"].get(area.kind, ())}:
+            for base in {area.name.lower(), area.id.replace("-", " "), *room_names(area.kind)}:
                 rooms.setdefault(tuple(base.split()), []).append(area.id)
             rooms.setdefault((area.id,), []).append(area.id)
         for phrase, ids in rooms.items():
@@ -86,7 +86,7 @@ class Lexicon:
         every = tuple(area.id for area in world.areas)
         self._table[("rooms",)] = Meaning("ROOMWORD", "room", ids=every, plural=True)
         self._table[("room",)] = Meaning("ROOMWORD", "room", ids=every)
-        absent = (word for kind in ("Kitchen", "LivingRoom", "Bedroom", "Bathroom") for word in tables()["room"][kind])
+        absent = (word for kind in ("Kitchen", "LivingRoom", "Bedroom", "Bathroom") for word in room_names(kind))
         for word in absent:
             self._table.setdefault(tuple(word.split()), Meaning("NOROOM", word))
 
@@ -137,13 +137,3 @@ class Lexicon:
             if guess.phrases:
                 return Meaning("MAYBE", " or ".join(repr(" ".join(p)) for p in guess.phrases[:3])), size
         return Meaning("UNKNOWN", words[0]), 1
-
-
-def called(type_name: str) -> str:
-    """What people call a type."""
-    return tables()["name"].get(type_name, (spaced(type_name),))[0]
-
-
-def spaced(name: str) -> str:
-    """ "coffee table" of "CoffeeTable"."""
-    return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name).lower()

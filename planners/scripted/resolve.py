@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from planners.scripted.lexicon import called
 from planners.scripted.syntax import Group, Place, Rooms, State, Thing, Unclear
 from planners.scripted.vocabulary import tables
 from wire.catalogue import catalogue, modelled_types
 from wire.messages.goal import Selector
 from wire.messages.world import ObjectState, WorldState
+from wire.names import called
 
 FLAG = {
     "open": ("openable", "opened"),

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from planners.scripted.lexicon import called
 from wire.messages.goal import Goal, Selector
+from wire.names import called
 
 TEXT_LIMIT = 300
 

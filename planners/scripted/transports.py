@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from planners.scripted.exceptions import leave_out
-from planners.scripted.lexicon import called
 from planners.scripted.resolve import Resolver, named, one_of, share
 from planners.scripted.syntax import Act, Body, Group, Groups, Place, Rooms, Thing, Unclear
 from wire.catalogue import catalogue
 from wire.messages.goal import Selector
+from wire.names import called
 
 
 @dataclass(frozen=True)

@@ -1,43 +1,17 @@
 """The fixed part of the vocabulary, read from `vocabulary.toml`, with the forms of words that spelling derives."""
 
-import tomllib
 from functools import lru_cache
 from importlib.resources import files
 
+from wire.names import read_phrases
+
 Phrase = tuple[str, ...]
-VOWELS = "aeiou"
-IRREGULAR_PLURALS = {"knife": "knives", "loaf": "loaves", "shelf": "shelves", "bus": "buses"}
 
 
 @lru_cache(maxsize=1)
 def tables() -> dict[str, dict[str, tuple[str, ...]]]:
     """Every table of the file: row name -> phrases."""
-    data = tomllib.loads(files("planners.scripted").joinpath("vocabulary.toml").read_text())
-    return {table: {row: _phrases(text) for row, text in rows.items()} for table, rows in data.items()}
-
-
-def _phrases(text: str) -> tuple[str, ...]:
-    return tuple(part.strip() for part in text.split(",") if part.strip())
-
-
-def plural(noun: str) -> str:
-    """The plural of a noun phrase: its last word takes the ending ("bottle of wine": its first)."""
-    words = noun.split()
-    if "of" in words:
-        head = words.index("of") - 1
-        return " ".join((*words[:head], plural(words[head]), *words[head + 1 :]))
-    *rest, last = words
-    return " ".join((*rest, _plural_word(last)))
-
-
-def _plural_word(word: str) -> str:
-    if word in IRREGULAR_PLURALS:
-        return IRREGULAR_PLURALS[word]
-    if word.endswith(("s", "x", "ch", "sh", "to")):
-        return word + "es"
-    if word.endswith("y") and word[-2] not in VOWELS:
-        return word[:-1] + "ies"
-    return word + "s"
+    return read_phrases(files("planners.scripted").joinpath("vocabulary.toml").read_text())
 
 
 def gerund(verb: str) -> str:

@@ -74,6 +74,8 @@ class WhyRequest(Message):
 
 
 class Claim(Message):
+    """What one source says of a thing or of one of its properties, and how sure it is of that."""
+
     source: Id
     stamp_s: Stamp
     confidence: Probability
@@ -84,6 +86,8 @@ class Claim(Message):
 class WhyEntry(Message):
     state: ObjectState
     claims: tuple[Claim, ...]
+    text: Text = ""
+    """Where it is, in one sentence."""
 
 
 class WhyReply(Message):

@@ -142,11 +142,11 @@ def record(
         fail(f"{file}: the name of a recording ends in .rrd", json_, 2)
     if not json_:
         terminal.print(f"recording to {file} until Ctrl-C", markup=False)
-    began = time.monotonic()
-    fault = _record(file, url)
-    if fault:
-        fail(fault, json_)
-    seconds, size = round(time.monotonic() - began, 1), file.stat().st_size
+    try:
+        seconds = round(_record(file, url), 1)
+    except RecordError as error:
+        fail(str(error), json_)
+    size = file.stat().st_size
     emit(
         {"ok": True, "file": str(file), "bytes": size, "seconds": seconds},
         f"wrote {file}: {size / 1e6:.1f} MB in {seconds} s",
@@ -154,9 +154,14 @@ def record(
     )
 
 
-def _record(file: Path, url: str) -> str:
-    """Record until Ctrl-C or the end of the stream; returns what went wrong, or nothing."""
+class RecordError(RuntimeError):
+    """There is no recording; the text says why."""
+
+
+def _record(file: Path, url: str) -> float:
+    """Record until Ctrl-C or the end of the stream; returns for how many seconds. Raises RecordError."""
     raw = file.with_suffix(".part.rrd")
+    began = time.monotonic()
     with quiet_environment() as environment:
         process = subprocess.Popen(
             [RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"],
@@ -165,14 +170,16 @@ def _record(file: Path, url: str) -> str:
         )
         try:
             code = process.wait()
+            took_s = time.monotonic() - began
         except KeyboardInterrupt:
+            took_s = time.monotonic() - began
             process.terminate()
             code = process.wait()
         if not raw.exists():
-            return f"nothing was recorded: does the mesh run? (rerun ended with {code})"
+            raise RecordError(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
         # A stream that is cut has no footer; this writes it.
         whole = [RERUN, "rrd", "optimize", str(raw), "-o", str(file)]
         if subprocess.run(whole, check=False, capture_output=True, env=environment).returncode != 0:
-            return f"{file} cannot be written; what was recorded lies in {raw}"
+            raise RecordError(f"{file} cannot be written; what was recorded lies in {raw}")
     raw.unlink()
-    return ""
+    return took_s

@@ -74,7 +74,7 @@ class Mesh:
         """Start every `autostart` process of the site whose host is this one."""
         if self.is_up():
             raise LaunchError(f"a mesh already runs from {self.run_dir}; `justw down` stops it")
-        if taken := "; ".join(taken_ports(site)):
+        if taken := taken_ports(site):
             raise LaunchError(taken)
         self.log_dir.mkdir(parents=True, exist_ok=True)
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)

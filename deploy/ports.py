@@ -2,7 +2,6 @@
 
 import os
 import socket
-from collections.abc import Iterator
 from pathlib import Path
 
 from wire.site import Site, SiteError, load_site
@@ -21,18 +20,20 @@ def is_free(port: int, host: str = "127.0.0.1") -> bool:
     return True
 
 
-def taken_ports(site: Site) -> Iterator[str]:
-    """One sentence for each port that a process of this site needs here and that somebody else has."""
+def taken_ports(site: Site) -> str:
+    """A sentence when somebody else has a port that a process of this site needs here; else nothing."""
     here = {process.role for process in site.process if process.host == "localhost" and process.autostart}
     host, _, port = site.router.endpoint.removeprefix("tcp/").rpartition(":")
     wanted = [("router", "router.endpoint", host.strip("[]"), int(port))]
     wanted.append(("view", "view.grpc_port", "127.0.0.1", site.view.grpc_port))
-    for role, place, address, number in wanted:
-        if role in here and not is_free(number, address):
-            yield (
-                f"port {number} ({place}) is taken by {holder(number)}; stop that, "
-                f"or use another port: `justw up --port N`, or {place} in the site file"
-            )
+    taken = [
+        f"port {number} ({place}) is taken by {holder(number)}"
+        for role, place, address, number in wanted
+        if role in here and not is_free(number, address)
+    ]
+    if not taken:
+        return ""
+    return f"{'; '.join(taken)}; stop that, or take other ports: `justw up --port N`, or in the site file"
 
 
 def holder(port: int) -> str:

@@ -153,7 +153,7 @@ def _site_of_the_page() -> Site:
     (tables,) = (text for text in blocks("add-a-device.md", "toml") if "[[robot]]" in text)
     flat_site = flat().model_copy(update={"robot": ()})
     rows = tomllib.loads(tables)
-    data = flat_site.model_dump() | {"robot": rows["robot"]}
+    data = flat_site.model_dump(exclude_unset=True) | {"robot": rows["robot"]}
     return parse_site(data | {"process": [*data["process"], *rows["process"]]}, "the page")
 
 

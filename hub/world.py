@@ -27,6 +27,8 @@ _RESETTLED_M = 0.15
 """Furniture that is believed this far from where it was has its neighbours' parents worked out again."""
 _TAKEN_FOR = 12.0
 """Votes that it takes to undo that a plan took a thing for something else."""
+_AROUND_M = 0.4
+"""What is in or on something is not farther from its edge."""
 _SWEEP_S = 5.0
 _MERGE_S = 1.0
 _TENTATIVE_S = 20.0
@@ -190,13 +192,17 @@ class World:
         if room != thing.room or parent != thing.receptacle:
             thing.room, thing.receptacle = room, parent
             thing.version += 1
-            self._locks_due = True
+            if any(other.receptacle == thing.id for other in self.things):
+                self._locks_due = True  # what is in it may be shut in with it
+            else:
+                self._lock(thing)
         if far and thing.shape.receptacle_mode is not None:
             self._relocate_near(thing)
 
     def _relocate_near(self, thing: Thing) -> None:
         """What may be in or on it is placed anew with the next delta."""
-        for other in self.things.near(thing.x, thing.y, 1.7):
+        reach_m = thing.shape.half_diagonal_m + _AROUND_M
+        for other in self.things.near(thing.x, thing.y, reach_m):
             if other is not thing and other.shape.kind != "static" and not other.locked:
                 other.placed_z = 1e9  # by the height, which does not pass it on to yet others
                 self.things.touch(other)
@@ -205,10 +211,13 @@ class World:
         """Mark what is in hands or behind doors."""
         self._locks_due = False
         for thing in self.things:
-            locked = thing.receptacle in self.fleet.robots or hidden(thing, self.things)
-            if locked != thing.locked:
-                thing.locked = locked
-                self.things.touch(thing)
+            self._lock(thing)
+
+    def _lock(self, thing: Thing) -> None:
+        locked = thing.receptacle in self.fleet.robots or hidden(thing, self.things)
+        if locked != thing.locked:
+            thing.locked = locked
+            self.things.touch(thing)
 
     def _upkeep(self, now_s: float) -> None:
         if now_s - self._merged_s >= _MERGE_S:

@@ -68,8 +68,9 @@ def status(json_: Json = False) -> None:
     except (SiteError, LaunchError) as error:
         fail(str(error), json_)
     devices = device_names(site)
+    wanted = {process.id for process in site.process if process.autostart}
     document = {
-        "ok": all(row.state == "RUNNING" for row in rows),
+        "ok": all(row.state == "RUNNING" for row in rows if row.id in wanted),
         "run_dir": str(mesh.run_dir),
         "processes": [
             {

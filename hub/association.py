@@ -1,5 +1,7 @@
 """Which thing is it that a source sees? Gates of covariance and type; later, which two things are one."""
 
+from collections.abc import Mapping
+
 from hub.records import Thing
 from hub.things import Things
 from wire.messages.observation import ObjectObservation
@@ -64,16 +66,16 @@ def distance_2(thing: Thing, seen: ObjectObservation, stamp_s: float) -> float:
     return plane + dz * dz / (thing.zz + rzz + _HEIGHT_M2 + extra)
 
 
-def duplicates(things: Things) -> list[tuple[Thing, Thing]]:
-    """Pairs that are one thing seen as two: (the one to keep, the one to give up)."""
+def duplicates(things: Things, changed: Mapping[str, Thing]) -> list[tuple[Thing, Thing]]:
+    """Pairs that are one thing seen as two: (the one to keep, the one to give up). One of each has changed, by id."""
     pairs: list[tuple[Thing, Thing]] = []
     gone: set[str] = set()
-    for thing in list(things):
-        if thing.id in gone:
+    for thing in changed.values():
+        if thing.id in gone or thing.id not in things.by_id:
             continue
         x, y, id = thing.x, thing.y, thing.id
         for other in things.near(x, y, _MERGE_M):
-            if other.id <= id:
+            if other is thing or (other.id <= id and other.id in changed):
                 continue
             apart_m2 = (x - other.x) ** 2 + (y - other.y) ** 2
             if apart_m2 > _MERGE_M2 or other.id in gone or not _one(thing, other, apart_m2):

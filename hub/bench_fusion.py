@@ -73,6 +73,7 @@ def _fuse(world: World, payloads: list[tuple[float, bytes]], told: list[int]) ->
             if delta is not None:
                 encode(delta)
                 told[0] += 1
+            world.upkeep(stamp_s)
 
 
 def _time(work: Callable[[], object]) -> float:

@@ -8,8 +8,10 @@ from hub.things import Things
 from wire.catalogue import catalogue
 
 _REACH_M = 1.7
-_FARTHEST = 1.1
+FARTHEST = 1.1
 """Half diagonals of a receptacle from its middle within which things may be on it."""
+LEAST_HOLDER = 0.9
+"""A receptacle's half diagonal is at least this part of that of what it holds."""
 _ON_SLACK_M = 0.18
 _SEATS = frozenset({"ArmChair", "Bed", "Chair", "Sofa"})
 """Things are put on these far below their tops: on the seat."""
@@ -26,7 +28,7 @@ def parent_of(thing: Thing, things: Things) -> str | None:
     bottom_m = thing.z - known.height_m / 2.0
     best: tuple[float, str] | None = None
     for other in things.near(thing.x, thing.y, _REACH_M):
-        mode, reach_m = other.shape.receptacle_mode, _FARTHEST * other.shape.half_diagonal_m
+        mode, reach_m = other.shape.receptacle_mode, FARTHEST * other.shape.half_diagonal_m
         if mode is None or abs(thing.x - other.x) > reach_m or abs(thing.y - other.y) > reach_m:
             continue
         if other is thing or other.receptacle == thing.id or other.locked:
@@ -42,10 +44,10 @@ def parent_of(thing: Thing, things: Things) -> str | None:
 def _fit(thing: Thing, known: Shape, bottom_m: float, other: Thing) -> float:
     """0 to 1: how well the thing's place suits this receptacle."""
     holder = other.shape
-    if holder.receptacle_mode is None or holder.half_diagonal_m < 0.9 * known.half_diagonal_m:
+    if holder.receptacle_mode is None or holder.half_diagonal_m < LEAST_HOLDER * known.half_diagonal_m:
         return 0.0
     away = hypot(thing.x - other.x, thing.y - other.y) / holder.half_diagonal_m
-    if away > (_FARTHEST if holder.receptacle_mode == "on" else 0.9):
+    if away > (FARTHEST if holder.receptacle_mode == "on" else 0.9):
         return 0.0
     height = _height_fit(bottom_m, thing.z, other, holder)
     if height <= 0.0:

@@ -24,7 +24,6 @@ from wire.messages.plan import PlanReply
 from wire.model import Vec2
 from wire.site import Site, state_dir
 
-_DELTA_S = 0.02
 _TRAFFIC_S = 0.2
 _SNAPSHOT_S = 5.0
 _STATE_S = 1.0
@@ -45,7 +44,7 @@ class Coordinator:
         self._devices = {p.id for p in site.process if p.role in ("robot", "cctv")}
         self._others = {p.id for p in site.process} - self._devices
         self._planners = {p.id for p in site.process if p.role == "planner"}
-        self._due = {"delta": 0.0, "traffic": 0.0, "snapshot": 0.0, "state": 0.0}
+        self._due = {"traffic": 0.0, "snapshot": 0.0, "state": 0.0}
         self._now_s = 0.0
         self._orders = 0
         self._restored = False
@@ -83,8 +82,7 @@ class Coordinator:
             self._conductor.lost(robot, now_s)
         for robot in self._recovery.due(now_s):
             self._voice.ask_goals(robot)
-        if self._is_due("delta", _DELTA_S, now_s):
-            self._tell_changes(now_s)
+        self._tell_changes(now_s)
         self._desk.step(now_s)
         self._hands.settle(now_s)
         self._conductor.advance(now_s)
@@ -99,6 +97,7 @@ class Coordinator:
                 task.judge(self.world.snapshot(now_s))
                 self._voice.show(task)
         self._voice.publish(now_s)
+        self.world.upkeep(now_s)
 
     def stop(self) -> None:
         self._journal.close()

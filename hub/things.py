@@ -69,11 +69,15 @@ class Things:
         self._cells[thing.cell].remove(thing)
         if thing.shown >= 0:
             self.removed.append(thing.id)
-        for other in self.by_id.values():
-            if other.receptacle == thing.id:
-                other.receptacle = None
-                other.version += 1
-                self.touch(other)
+        for other in self.inside(thing):
+            other.receptacle = None
+            other.version += 1
+            self.touch(other)
+
+    def inside(self, holder: Thing) -> list[Thing]:
+        """What is believed to be in or on it."""
+        id = holder.id
+        return [thing for thing in self.by_id.values() if thing.receptacle == id]
 
     def standing_for(self, id: str) -> str:
         """The id under which a thing is known now."""

@@ -1,11 +1,12 @@
 """W = (robots, objects, areas): equation 1, its transition F (equation 5), and what changed since the last delta."""
 
 from collections.abc import Mapping
+from math import hypot
 
 from hub.absence import Absences
 from hub.areas import Areas
 from hub.association import duplicates
-from hub.containment import hidden, parent_of
+from hub.containment import FARTHEST, LEAST_HOLDER, hidden, parent_of
 from hub.denials import Denials
 from hub.facts import claim, settle
 from hub.fleet import Fleet, Robot
@@ -27,8 +28,6 @@ _RESETTLED_M = 0.15
 """Furniture that is believed this far from where it was has its neighbours' parents worked out again."""
 _TAKEN_FOR = 12.0
 """Votes that it takes to undo that a plan took a thing for something else."""
-_AROUND_M = 0.4
-"""What is in or on something is not farther from its edge."""
 _SWEEP_S = 5.0
 _MERGE_S = 1.0
 _TENTATIVE_S = 20.0
@@ -50,6 +49,8 @@ class World:
         self._robots: frozenset[str] = frozenset()
         self._locks_due = False
         self._swept_s = self._merged_s = 0.0
+        self._unmerged: dict[str, Thing] = {}
+        """What changed since duplicates were last looked for."""
 
     def observe(self, batch: ObservationBatch) -> None:
         """F(W, u) for a picture."""
@@ -136,7 +137,6 @@ class World:
 
     def settle(self, now_s: float) -> list[Thing]:
         """Work out rooms, parents, properties and doubt of what was touched; those a reader should hear of."""
-        self._upkeep(now_s)
         touched = self.things.touched
         later: list[Thing] = []
         self.things.touched = later
@@ -144,6 +144,7 @@ class World:
             thing.touched = False
             if thing.id in self.things.by_id:
                 self._review(thing, now_s)
+                self._unmerged[thing.id] = thing
         if self._locks_due:
             self.lock()
         there = [t for t in (*touched, *later) if t.id in self.things.by_id]
@@ -151,7 +152,7 @@ class World:
         return list({t.id: t for t in changed}.values())
 
     def delta(self, now_s: float) -> WorldDelta | None:
-        """What changed since the last delta, or None. At most ten a second are worth asking for."""
+        """What changed since the last delta, or None."""
         objects = tuple(show(thing, now_s) for thing in self.settle(now_s))
         removed, self.things.removed = tuple(self.things.removed), []
         robots, areas = self.fleet.changes(), self.areas.changes()
@@ -192,7 +193,7 @@ class World:
         if room != thing.room or parent != thing.receptacle:
             thing.room, thing.receptacle = room, parent
             thing.version += 1
-            if any(other.receptacle == thing.id for other in self.things):
+            if self.things.inside(thing):
                 self._locks_due = True  # what is in it may be shut in with it
             else:
                 self._lock(thing)
@@ -200,9 +201,15 @@ class World:
             self._relocate_near(thing)
 
     def _relocate_near(self, thing: Thing) -> None:
-        """What may be in or on it is placed anew with the next delta."""
-        reach_m = thing.shape.half_diagonal_m + _AROUND_M
-        for other in self.things.near(thing.x, thing.y, reach_m):
+        """What was, or may now be, in or on it is placed anew with the next delta."""
+        reach_m = FARTHEST * thing.shape.half_diagonal_m + _RESETTLED_M
+        largest_m = thing.shape.half_diagonal_m / LEAST_HOLDER
+        near = self.things.near(thing.x, thing.y, reach_m)
+        maybe = [
+            o for o in near
+            if o.shape.half_diagonal_m <= largest_m and hypot(o.x - thing.x, o.y - thing.y) < reach_m
+        ]  # fmt: skip
+        for other in (*maybe, *self.things.inside(thing)):
             if other is not thing and other.shape.kind != "static" and not other.locked:
                 other.placed_z = 1e9  # by the height, which does not pass it on to yet others
                 self.things.touch(other)
@@ -219,18 +226,28 @@ class World:
             thing.locked = locked
             self.things.touch(thing)
 
-    def _upkeep(self, now_s: float) -> None:
+    def upkeep(self, now_s: float) -> None:
+        """What can wait until readers have their delta: two records of one thing, and what fades with age.
+
+        The next delta tells what it changed.
+        """
         if now_s - self._merged_s >= _MERGE_S:
             self._merged_s = now_s
-            for keep, drop in duplicates(self.things):
+            changed, self._unmerged = self._unmerged, {}
+            for keep, drop in duplicates(self.things, changed):
                 self._merge(keep, drop)
         if now_s - self._swept_s >= _SWEEP_S:
             self._swept_s = now_s
-            for thing in list(self.things):
-                if thing.shown < 0 and now_s - thing.stamp_s > _TENTATIVE_S:
-                    self.things.remove(thing)
-                else:
-                    self.things.touch(thing)
+            self._sweep(now_s)
+
+    def _sweep(self, now_s: float) -> None:
+        for thing in list(self.things):
+            if thing.shown < 0 and now_s - thing.stamp_s > _TENTATIVE_S:
+                self.things.remove(thing)
+                continue
+            self._review(thing, now_s)
+            if due(thing, now_s):
+                self.things.touch(thing)
 
     def _merge(self, keep: Thing, drop: Thing) -> None:
         """Two records of one thing become one; the surer keeps its id."""
@@ -254,8 +271,8 @@ class World:
         keep.verified = keep.verified or drop.verified
         keep.version += 1
         self.things.touch(keep)
-        for thing in self.things:
-            if thing.receptacle == drop.id and thing is not keep:
+        for thing in self.things.inside(drop):
+            if thing is not keep:
                 thing.receptacle = keep.id
                 thing.version += 1
                 self.things.touch(thing)

@@ -143,6 +143,7 @@ def test_the_same_messages_give_the_same_world() -> None:
             looks = [seen("Mug", rng.uniform(0, 8), rng.uniform(0, 4), 0.9, f"t{i}") for i in range(20)]
             world.observe(batch(f"cam-{look % 3}", 0.5 * look, *looks))
             world.delta(0.5 * look)
+            world.upkeep(0.5 * look)
         return world.snapshot(20.0).model_dump_json()
 
     assert play() == play()
@@ -154,6 +155,7 @@ def test_one_piece_of_furniture_taken_for_two_types_is_one() -> None:
         world.observe(batch("cam-1", look, seen("ArmChair", 2.0, 2.0, 0.44, "a", confidence=0.5)))
         world.observe(batch("dog-1", look + 0.1, seen("Sofa", 2.1, 2.0, 0.46, "s"), view=view(0.5, 2.0)))
         world.delta(look)
+        world.upkeep(look)
     world.delta(11.0)
     assert [o.type for o in world.snapshot(11.0).objects] == ["Sofa"]
 
@@ -178,6 +180,7 @@ def test_standing_and_staring_is_one_opinion() -> None:
             at = view(0.5 + 0.1 * k, 1.0 + 0.5 * k)
             world.observe(batch("dog-2", 30.0 + 2.0 * k + 0.5 * look, seen("Sofa", 2.5, 2.0, 0.4, f"s{k}"), view=at))
     world.delta(45.0)
+    world.upkeep(45.0)
     (sofa,) = [o for o in world.snapshot(45.0).objects if o.type in ("Sofa", "ArmChair")]
     assert sofa.type == "Sofa"
     assert sofa.maybe == {"ArmChair": 0.17}
@@ -199,4 +202,5 @@ def test_a_thing_is_taken_for_what_a_plan_says_until_looks_say_otherwise() -> No
             at = view(0.5, 0.5 + 0.4 * k)
             world.observe(batch("dog-1", 3.0 + 2.0 * k + 0.5 * look, seen("ArmChair", 2.5, 2.0, 0.4, "b"), view=at))
     world.delta(22.0)
+    world.upkeep(22.0)
     assert [o.type for o in world.snapshot(22.0).objects] == ["ArmChair"]

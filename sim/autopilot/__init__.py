@@ -1,0 +1,1 @@
+"""What firmware decides: modes, arming, missions, setpoints, fence, failsafes, parameters."""

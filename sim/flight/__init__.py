@@ -1,0 +1,1 @@
+"""One quadrotor: rotors, sensors, estimator and control in the PyBullet world."""

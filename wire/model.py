@@ -23,4 +23,4 @@ Stamp = Annotated[float, Field(ge=0.0)]
 class Message(BaseModel):
     """A value on the wire. Validation is strict: no coercion of strings to numbers, no extra fields."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False, defer_build=True)

@@ -2,9 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable
-from math import hypot
-
-import numpy as np
+from math import cos, hypot, sin
 
 from devices.quadruped.look import Look
 from devices.quadruped.map import FloorMap
@@ -113,11 +111,13 @@ class Body:
         """Free length in front of the body, as the last sweep saw it."""
         if self.scan is None:
             return BUMPER_M
-        ranges = np.array(self.scan.ranges_m)
-        angles = self.scan.angle_min_rad + self.scan.angle_step_rad * np.arange(len(ranges))
-        ahead, aside = ranges * np.cos(angles), ranges * np.sin(angles)
-        in_way = (ranges > 0.0) & (np.abs(aside) < BODY_HALF_WIDTH_M) & (ahead > 0.0)
-        return float(ahead[in_way].min(initial=self.scan.range_max_m)) - BODY_FRONT_M
+        nearest_m = self.scan.range_max_m
+        for k, range_m in enumerate(self.scan.ranges_m):
+            angle_rad = self.scan.angle_min_rad + self.scan.angle_step_rad * k
+            ahead_m = range_m * cos(angle_rad)
+            if 0.0 < ahead_m < nearest_m and abs(range_m * sin(angle_rad)) < BODY_HALF_WIDTH_M:
+                nearest_m = ahead_m
+        return nearest_m - BODY_FRONT_M
 
     # What is asked of it
 
@@ -175,8 +175,7 @@ class Body:
             return
         front: Iterable[Vec3] = ((BODY_FRONT_M + 0.07, side, 0.0) for side in (-0.15, 0.0, 0.15))
         here = (*self.position_m, 0.0)
-        points = np.array([body_to_enu(point, here, self.yaw_rad)[:2] for point in front])
-        self.floor.mark(points, self.now_s, TOUCH_WEIGHT)
+        self.floor.mark([body_to_enu(point, here, self.yaw_rad)[:2] for point in front], self.now_s, TOUCH_WEIGHT)
 
     def _count(self) -> None:
         if self._counted_m is None:

@@ -34,7 +34,8 @@ def next_turn(core: Core, beat_due_s: float, tick: int, now_s: float, step_s: fl
     """The tick in which a core that has just stepped at `now_s` steps next; a heartbeat that is due ends a rest."""
     if not isinstance(core, Resting):
         return tick + 1
-    wanted = ceil((min(core.rests_until_s(), beat_due_s) - now_s) / step_s - 1e-6)
+    rest_s = min(core.rests_until_s() - now_s, beat_due_s - now_s, LONGEST_REST_S)
+    wanted = ceil(max(rest_s, 0.0) / step_s - 1e-6)
     return tick + max(1, min(wanted, floor(LONGEST_REST_S / step_s + 1e-6)))
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from math import ceil, hypot
+from math import ceil, hypot, pi, remainder
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,12 @@ REACH_M = 1.0
 """Clearances are exact up to here."""
 HIT, MISS, MOST, SOLID = 0.5, -0.25, 3.0, 0.7
 """Two hits make an obstacle; a beam that passes weakens it, up to twelve of them clear it."""
+ENOUGH = 12
+"""After so many equal sweeps neither hits nor misses change anything any more."""
+NOTE_AGAIN_S = 1.0
+"""Even so what is there is noted as still there."""
+STOOD_M = 0.05
+"""Between two sweeps from one place the robot's own idea of where it is wanders by less."""
 SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
@@ -60,6 +66,8 @@ class FloorMap:
         self._seen_s: Grid = np.zeros((self.rows, self.columns), np.float32)
         self._hit_m = np.zeros((self.rows, self.columns, 2), np.float32)
         self._window = _window(ceil(REACH_M / CELL_M))
+        self._last: LaserScan | None = None
+        self._repeats, self._noted_s = 0, 0.0
         self._obstacles: Grid | None = None
         self._hits: NDArray[np.float32] | None = None
 
@@ -96,6 +104,8 @@ class FloorMap:
 
     def see(self, scan: LaserScan, others_m: Iterable[Vec2] = ()) -> None:
         """Mark where beams end and weaken what they pass. Other robots are not furniture."""
+        if self._says_nothing_new(scan):
+            return
         ranges = np.array(scan.ranges_m)
         angles = scan.yaw_rad + scan.angle_min_rad + scan.angle_step_rad * np.arange(len(ranges))
         ray = np.stack([np.cos(angles), np.sin(angles)], axis=1)
@@ -106,6 +116,16 @@ class FloorMap:
             self._clear_under(other_m)
             ends = ends[np.hypot(ends[:, 0] - other_m[0], ends[:, 1] - other_m[1]) > OTHER_ROBOT_M]
         self.mark(ends, scan.stamp_s)
+
+    def _says_nothing_new(self, scan: LaserScan) -> bool:
+        """It is the same sweep again, of a robot that stands, often enough that every weight has come to its end."""
+        last, self._last = self._last, scan
+        same = last is not None and last.ranges_m == scan.ranges_m and _moved_m(last, scan) < STOOD_M
+        self._repeats = self._repeats + 1 if same else 0
+        if self._repeats > ENOUGH and scan.stamp_s - self._noted_s < NOTE_AGAIN_S:
+            return True
+        self._noted_s = scan.stamp_s
+        return False
 
     def mark(self, ends_m: NDArray[np.float64], now_s: float, weight: float = HIT) -> None:
         """There is something at these points."""
@@ -129,9 +149,14 @@ class FloorMap:
 
         Beams end at its body, so that while it stays none would pass through these places and clear them.
         """
-        under = (self._weight > 0.0) & (self.distance_m(other_m) < OTHER_BODY_M)
+        low = self.cell((other_m[0] - OTHER_BODY_M, other_m[1] - OTHER_BODY_M))
+        high = self.cell((other_m[0] + OTHER_BODY_M, other_m[1] + OTHER_BODY_M))
+        around = np.s_[low.row : high.row + 1, low.column : high.column + 1]
+        weight = self._weight[around]
+        away_m = np.hypot(self._x[around] - other_m[0], self._y[around] - other_m[1])
+        under = (weight > 0.0) & (away_m.astype(np.float32) < OTHER_BODY_M)
         if under.any():
-            self._weight[under] = 0.0
+            weight[under] = 0.0
             self._changed()
 
     @property
@@ -226,6 +251,12 @@ def _window(radius: int) -> NDArray[np.int64]:
     near = np.hypot(rows, columns) <= radius
     offsets: NDArray[np.int64] = np.stack([rows[near], columns[near]], axis=1)
     return offsets
+
+
+def _moved_m(before: LaserScan, after: LaserScan) -> float:
+    """How far the ends of beams of the same ranges are apart, at most."""
+    away_m = hypot(*(a - b for a, b in zip(after.position_enu_m[:2], before.position_enu_m[:2], strict=True)))
+    return away_m + TRUSTED_M * abs(remainder(after.yaw_rad - before.yaw_rad, 2.0 * pi))
 
 
 def without_doors(wall: Wall, doors: Iterable[Door]) -> list[tuple[Vec2, Vec2]]:

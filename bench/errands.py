@@ -1,4 +1,4 @@
-"""Robots kept on their way: task after task that sends them through the rooms, by an operator, the real planner and hub."""
+"""Robots kept on their way by an operator: task after task for the hub, with the plans of `bench.tour`."""
 
 import time
 
@@ -8,7 +8,7 @@ from console.task import RUNNING
 from wire.messages.command import Progress
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
 
-WORDS = "visit every room"
+WORDS = "go round"
 LOOK_S = 0.2
 PROGRESS_HZ = 2.0
 """Every robot that is at a goal tells this often how far it has come, in simulated time."""

@@ -41,6 +41,7 @@ def measure() -> dict[str, Any]:
         bare_ms = bare_tick_ms(followers)
         standing = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
         errands = Errands()
+        site_file.write_text(site_file.read_text().replace('module = "planners"', 'module = "bench.tour"'))
         driving = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S, meanwhile=errands)
         bare_ms = (bare_ms + bare_tick_ms(followers)) / 2.0
     at_work = round(errands.robots_at_work(driving.simulated_s), 2)

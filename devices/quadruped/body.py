@@ -14,6 +14,8 @@ from wire.model import Message, Vec2, Vec3
 
 COUNTED_M = 0.04
 """Smaller moves are the odometry's noise and not travelled."""
+STANDS_MPS = 0.02
+"""What is slower stands."""
 TILT_STEP_RAD = 0.1
 """A smaller change of the camera's tilt is no action of its own."""
 WALK_TILT_RAD = 0.45
@@ -92,6 +94,13 @@ class Body:
     @property
     def may_move(self) -> bool:
         return self.order is None or self.order.go or self.order.step_aside_m is not None
+
+    @property
+    def at_rest(self) -> bool:
+        """It stands, and neither what is asked of it nor an order to step aside is going to move it."""
+        asked = self._forward_mps or self._left_mps or self._yaw_rate_radps or self._pending or self._awaited
+        ordered = self.order is not None and self.order.step_aside_m is not None
+        return not asked and not ordered and self.odometry is not None and self.odometry.speed_mps < STANDS_MPS
 
     @property
     def gripping(self) -> bool:

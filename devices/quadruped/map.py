@@ -7,7 +7,7 @@ from array import array
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import asin, atan2, ceil, cos, floor, hypot, inf, sin, sqrt, tau
+from math import asin, atan2, ceil, cos, floor, hypot, inf, pi, remainder, sin, sqrt, tau
 
 from devices.quadruped.grid import CELL_M, Cell, CellGrid, Grid
 from wire.messages.driver import LaserScan
@@ -18,6 +18,12 @@ REACH_M, ASKED_M = 1.0, 0.8
 """Distances are told up to the first; those of cells to obstacles are exact up to the second, more than anybody needs."""
 HIT, MISS, MOST, SOLID = 0.5, -0.25, 3.0, 0.7
 """Two hits make an obstacle; a beam that passes weakens it, up to twelve of them clear it."""
+ENOUGH = 12
+"""After so many equal sweeps neither hits nor misses change anything any more."""
+NOTE_AGAIN_S = 1.0
+"""Even so what is there is noted as still there."""
+STOOD_M = 0.05
+"""Between two sweeps from one place the robot's own idea of where it is wanders by less."""
 SHORT_OF_HIT_M = 0.15
 WALL_SKIN_M = 0.12
 """A beam that ends this near to a wall has hit the wall."""
@@ -54,11 +60,15 @@ class FloorMap(CellGrid):
             for start_m, end_m in without_doors(wall, site.door):
                 self._build(start_m, end_m, wall.thickness_m)
         self._marks: dict[Cell, Mark] = {}
+        self._last: LaserScan | None = None
+        self._repeats, self._noted_s = 0, 0.0
         self._clearance: Grid | None = None
         self._near: dict[tuple[int, int], list[Vec2]] | None = None
 
     def see(self, scan: LaserScan, others_m: Iterable[Vec2] = ()) -> None:
         """Mark where beams end and weaken what they pass. Other robots are not furniture."""
+        if self._says_nothing_new(scan):
+            return
         x, y = scan.position_enu_m[:2]
         first_rad = scan.yaw_rad + scan.angle_min_rad
         angles_rad = [first_rad + scan.angle_step_rad * k for k in range(len(scan.ranges_m))]
@@ -69,6 +79,16 @@ class FloorMap(CellGrid):
             self._clear_under(other_m)
             ends = [end for end in ends if hypot(end[0] - other_m[0], end[1] - other_m[1]) > OTHER_ROBOT_M]
         self.mark(ends, scan.stamp_s)
+
+    def _says_nothing_new(self, scan: LaserScan) -> bool:
+        """It is the same sweep again, of a robot that stands, often enough that every weight has come to its end."""
+        last, self._last = self._last, scan
+        same = last is not None and last.ranges_m == scan.ranges_m and _moved_m(last, scan) < STOOD_M
+        self._repeats = self._repeats + 1 if same else 0
+        if self._repeats > ENOUGH and scan.stamp_s - self._noted_s < NOTE_AGAIN_S:
+            return True
+        self._noted_s = scan.stamp_s
+        return False
 
     def mark(self, ends_m: Iterable[Vec2], now_s: float, weight: float = HIT) -> None:
         """There is something at these points; those in one cell count once."""
@@ -214,6 +234,12 @@ def _to_edge(begin: float, share: float, count: int) -> float:
     if share == 0.0:
         return inf
     return (count - begin) / share if share > 0.0 else -begin / share
+
+
+def _moved_m(before: LaserScan, after: LaserScan) -> float:
+    """How far the ends of beams of the same ranges are apart, at most."""
+    away_m = hypot(*(a - b for a, b in zip(after.position_enu_m[:2], before.position_enu_m[:2], strict=True)))
+    return away_m + TRUSTED_M * abs(remainder(after.yaw_rad - before.yaw_rad, 2.0 * pi))
 
 
 def without_doors(wall: Wall, doors: Iterable[Door]) -> list[tuple[Vec2, Vec2]]:

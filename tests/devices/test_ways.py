@@ -54,6 +54,19 @@ def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
     assert floor.walls_m[beside_wall] == pytest.approx(gap, abs=1e-3)
 
 
+def test_what_a_standing_robot_sees_again_and_again_stays_known() -> None:
+    floor, cell = FloorMap(SITE), FloorMap(SITE).cell((2.0, 2.0))
+    for number in range(100):
+        same = scan(1.0, 2.0, 1.0).model_copy(update={"seq": number, "stamp_s": 0.2 * number})
+        floor.see(same)
+    floor.forget(0.2 * 99 - 2.0)
+    assert floor.clearance_m[cell] < 0.1
+    for number in range(100, 113):
+        gone = scan(1.0, 2.0, 3.0).model_copy(update={"seq": number, "stamp_s": 0.2 * number})
+        floor.see(gone)
+    assert floor.clearance_m[cell] > 0.5, "a beam that goes on further is news at once"
+
+
 def test_a_wall_drawn_through_a_door_has_a_gap() -> None:
     wall = Wall(start_m=(0.0, 0.0), end_m=(0.0, 5.0))
     door = Door(id="d", rooms=("a", "b"), start_m=(0.0, 3.0), end_m=(0.0, 2.0))

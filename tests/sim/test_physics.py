@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sim.flight.state import Trajectory
 from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, BEAMS, HEIGHT_M, RANGE_M, Lidar
 from sim.physics import Physics, RobotStart
 from sim.rover import BODY_SIZE_M, Wish
@@ -208,4 +209,29 @@ def test_legs_trot_stand_and_stop_at_walls():
     (_, _, height_m), turn = physics.bullet.getBasePositionAndOrientation(rover.body)
     assert 0.25 < height_m < 0.4
     assert abs(turn[0]) + abs(turn[1]) < 0.1
+    physics.close()
+
+
+def test_a_drone_flies_in_the_house_is_seen_by_lidar_and_its_touch_counts() -> None:
+    drone = RobotStart("drone-1", (1.5, 2.0), 0.0)
+    physics = Physics(make_small_home(), [RobotStart("dog-1", (2.5, 2.0), pi)], drones=[drone])
+    asked: list[float] = []
+    physics.each_step.append(asked.append)
+    vehicle = physics.drones["drone-1"]
+    physics.advance(240)
+    assert asked == pytest.approx([k / 240.0 for k in range(240)])
+    assert any(abs(box.centre_m[0] - 1.5) < 0.05 for box in physics.moving("dog-1"))
+    low = physics.cast("dog-1", [(2.1, 2.0, 0.08)], [(1.0, 2.0, 0.08)])
+    assert low[0] == pytest.approx((2.1 - 1.7) / 1.1, abs=0.02), "it stands in the way of a ray"
+    vehicle.arm()
+    vehicle.command(Trajectory((2.0, 1.5, -1.2)))
+    physics.advance(6 * 240)
+    assert vehicle.true_pose()[0] == pytest.approx((1.5, 2.0, 1.2), abs=0.1)
+    assert physics.collisions == 0
+    vehicle.disarm()
+    physics.advance(240)
+    vehicle.arm()
+    vehicle.command(Trajectory((2.0, 2.5, -0.3)))
+    physics.advance(4 * 240)
+    assert physics.collisions >= 1
     physics.close()

@@ -4,7 +4,7 @@ What rests in or on a receptacle is carried by it and needs no body of its own; 
 until something touches it. The gripper moves things by changing the scene and telling this module.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import atan2
 

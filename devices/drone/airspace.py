@@ -15,6 +15,7 @@ LEAST_HEIGHT_M = 0.4
 DOORWAY_M = 0.6
 """The drone is under a lintel this far from the middle line of a door."""
 OVER_THING_M = 0.35
+ON_WALL_M = 0.3
 
 Cell = tuple[int, int]
 
@@ -35,7 +36,7 @@ class Airspace:
         points = [p for room in site.room for p in room.polygon_m]
         self._west_m = min(p[0] for p in points) - CELL_M
         self._south_m = min(p[1] for p in points) - CELL_M
-        self.doors = site.door
+        self.rooms, self.doors = site.room, site.door
         self._top_m: dict[Cell, float] = {}
         self._wall_m: dict[Cell, float] = {}
         for room in site.room:
@@ -96,6 +97,14 @@ class Airspace:
     def first_fault(self, points_m: Iterable[Vec3]) -> str:
         """What is wrong with the first point of a curve at which something is."""
         return next((fault for point in points_m if (fault := self.fault(point))), "")
+
+    def in_sight(self, from_m: Vec2 | Vec3, point_m: Vec2) -> bool:
+        """Whether no wall is between; what hangs on a wall is in front of it."""
+        dx, dy = point_m[0] - from_m[0], point_m[1] - from_m[1]
+        length = hypot(dx, dy)
+        count = ceil(max(0.0, length - ON_WALL_M) / (CELL_M / 2.0))
+        shares = (k * CELL_M / 2.0 / length for k in range(count))
+        return all(self.wall_m(self.cell((from_m[0] + s * dx, from_m[1] + s * dy))) > CELL_M / 2.0 for s in shares)
 
     def _in_the_way(self, height_m: float) -> Iterable[tuple[str, Obstacle]]:
         return ((id, thing) for id, thing in self.obstacles.items() if thing.top_m + OVER_THING_M > height_m)

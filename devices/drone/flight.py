@@ -22,6 +22,8 @@ Facing = Callable[[Vec3, Vec3], float | None]
 
 LEAST_BATTERY = 0.2
 """Less than this and nothing new is begun."""
+READY_S = 4.0
+"""What an autopilot says of its health comes with its heartbeats: just found, it may not have said yet."""
 TAKE_OFF_S, NEAR_HEIGHT_M = 15.0, 0.2
 LATE_S = 5.0
 OFF_COURSE_M = 0.5
@@ -64,7 +66,11 @@ def unready(craft: Craft) -> Outcome | None:
 
 def get_up(craft: Craft, height_m: float) -> Trouble:
     """Into the air, if it is not yet, straight up."""
-    trouble = unready(craft)
+    trouble, begun_s = unready(craft), craft.now_s
+    while trouble is not None and craft.now_s - begun_s < READY_S:
+        craft.note = trouble.reason
+        yield
+        trouble = unready(craft)
     if trouble is not None or (craft.airborne and not craft.landing):
         return trouble
     if craft.airborne:

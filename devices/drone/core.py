@@ -5,17 +5,22 @@ from collections.abc import Callable, Sequence
 from devices.device import Device
 from devices.drone.airspace import Airspace
 from devices.drone.craft import Craft
+from devices.drone.obstacles import Obstacles
 from devices.drone.pilot import Found, Land, News, NoLink, Pilot, Said
 from devices.drone.work import DroneWorker
 from devices.goals_journal import GoalsJournal
-from wire.bus import CannotRun, Event, Node, Received
+from wire.bus import CannotRun, Event, Node, Received, Reply
 from wire.messages.command import TrafficOrder
 from wire.messages.observation import EventLog
+from wire.messages.world import SnapshotRequest, WorldDelta, WorldState
+from wire.model import Message
 from wire.site import Robot, Site
 
 KIND = "drone"
 CONTROL_S = 0.05
 EARLY_S = 1e-6
+WORLD_S = 30.0
+"""So often the whole world is asked for: what changed while the hub was away was missed."""
 
 
 class DroneCore:
@@ -30,14 +35,18 @@ class DroneCore:
         self._id, self._journal = id, journal
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._pilot = open_pilot(row)
-        self.craft = Craft(row, Airspace(site), self._pilot)
+        self._obstacles = Obstacles()
+        space = Airspace(site)
+        space.obstacles = self._obstacles.by_id
+        self.craft = Craft(row, space, self._pilot)
         self._device = Device(id, DroneWorker(self.craft), journal, row.lost_hub_s)
-        self._control_due_s = 0.0
+        self._control_due_s = self._ask_due_s = 0.0
         self._lines, self._lost, self._said = 0, True, ""
 
     def start(self, node: Node) -> None:
         self._node = node
         node.subscribe("traffic", self._id)
+        node.subscribe("world_delta")
         for hub_id in self._hub_ids:
             node.subscribe("health", hub_id)
         self._device.start(node)
@@ -49,14 +58,23 @@ class DroneCore:
             self.craft.hear(news)
             self._tell_of(news)
         for event in events:
-            if isinstance(event, Received) and isinstance(event.message, TrafficOrder):
-                self.craft.order = event.message
+            if isinstance(event, Received | Reply):
+                self._hear(event.message)
             self._device.hear(event, now_s)
         if now_s < self._control_due_s - EARLY_S:
             return
         self._control_due_s = now_s + CONTROL_S
         self._tell_of_losses()
+        if now_s >= self._ask_due_s and not self._device.hub_lost(now_s):
+            self._ask_due_s = now_s + WORLD_S
+            self._node.ask("snapshot", SnapshotRequest())
         self._device.step(now_s)
+
+    def _hear(self, message: Message | None) -> None:
+        if isinstance(message, TrafficOrder):
+            self.craft.order = message
+        elif isinstance(message, WorldState | WorldDelta):
+            self._obstacles.take(message)
 
     def stop(self) -> None:
         """What is in the air is landed: nobody looks after it any more."""

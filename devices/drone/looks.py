@@ -144,6 +144,8 @@ def construct_map(craft: Craft, command: Command) -> Skilled:
             return Outcome(trouble.status, trouble.code, f"after {taken} pictures: {trouble.reason}")
         if trouble is None:
             ok, said = yield from _shoot(craft)
+            if not ok and not taken:
+                return failed("driver", said)
             taken += ok
             why = why if ok else said
         else:

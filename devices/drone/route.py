@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 from math import ceil, dist, hypot, inf, sqrt
 
-from devices.drone.airspace import CELL_M, NEEDED_M, WANTED_M, Airspace, Cell
+from devices.drone.airspace import CELL_M, LEAST_HEIGHT_M, NEEDED_M, WANTED_M, Airspace, Cell
 from wire.model import Vec2, Vec3
 
 NEAR_WALL_PRICE = 2.0
@@ -26,7 +26,7 @@ def find_way(space: Airspace, start_m: Vec3, goal_m: Vec3, travel_m: float) -> l
     """
     lintels = [space.top_m(middle_m(door.start_m, door.end_m)) for door in space.doors]
     for height_m in dict.fromkeys([goal_m[2], travel_m, *sorted(lintels)[:1]]):
-        level = _level_way(space, start_m, goal_m, height_m)
+        level = _level_way(space, start_m, goal_m, height_m) if height_m >= LEAST_HEIGHT_M else None
         if level is not None:
             corners = [(x, y, height_m) for x, y in level]
             return _without_repeats([start_m, *corners, goal_m])

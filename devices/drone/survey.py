@@ -32,7 +32,7 @@ def ring(centre_m: Vec2, radius_m: float, from_rad: float, turn_rad: float, coun
 
 
 def _spread(low: float, high: float, spacing_m: float) -> list[float]:
-    """Evenly from one end to the other; one in the middle where there is room for no more."""
+    """Evenly from one end to the other; one where they are the same place."""
     if high < low:
         return []
     gaps = ceil((high - low) / spacing_m - 1e-9)

@@ -13,14 +13,19 @@ WALLS = (
 
 
 def flat(lintel_m: float = 2.0, **robot: object) -> Site:
-    rooms = [("west", "LivingRoom", 0.0), ("east", "Kitchen", 4.0)]
+    rooms = [("west", "living room", "LivingRoom", 0.0), ("east", "kitchen", "Kitchen", 4.0)]
     row = {"id": "drone-1", "kind": "drone", "start_m": (1.0, 1.0), "link": "udpin://127.0.0.1:14540", **robot}
     return parse_site(
         {
             "name": "flat",
             "room": [
-                {"id": id, "name": id, "kind": kind, "polygon_m": [(x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0)]}
-                for id, kind, x in rooms
+                {
+                    "id": id,
+                    "name": name,
+                    "kind": kind,
+                    "polygon_m": [(x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0)],
+                }
+                for id, name, kind, x in rooms
             ],
             "wall": [{"start_m": a, "end_m": b} for a, b in WALLS],
             "door": [

@@ -172,7 +172,7 @@ def test_a_thing_is_looked_at_from_its_room_and_from_above():
     assert flown.craft.position_m[0] > 4.5
     assert abs(flown.craft.yaw_rad) < 0.5, "facing east, where the fridge is"
     above = flown.do("inspect_from_above", room="west")
-    assert "west seen from 0.1 m beside, 2.1 m high; picture 7 taken" in above.reason
+    assert "living room seen from 0.1 m beside, 2.1 m high; picture 7 taken" in above.reason
 
 
 def test_a_survey_takes_a_picture_at_every_station():

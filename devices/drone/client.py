@@ -37,6 +37,7 @@ class MavsdkPilot:
         self._numbers = count(1)
         self._vehicle: Vehicle | None = None
         self._orders: set[asyncio.Task[None]] = set()
+        self._fault: BaseException | None = None
 
     def start(self) -> None:
         self._thread.start()
@@ -50,6 +51,9 @@ class MavsdkPilot:
         self._loop.call_soon_threadsafe(self._pass_on, setpoint)
 
     def news(self) -> list[News]:
+        """Raises what went wrong in the thread: nobody would notice it there."""
+        if self._fault is not None:
+            raise self._fault
         return [self._news.popleft() for _ in range(len(self._news))]
 
     def stop(self) -> None:
@@ -62,12 +66,14 @@ class MavsdkPilot:
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
         self._main = self._loop.create_task(self._stay_connected())
-        try:
-            self._loop.run_until_complete(self._main)
-        except asyncio.CancelledError:
-            self._loop.run_until_complete(self._loop.shutdown_asyncgens())
-        finally:
-            self._loop.close()
+        self._loop.run_until_complete(asyncio.wait([self._main]))
+        self._note_fault(self._main)
+        self._loop.run_until_complete(self._loop.shutdown_asyncgens())
+        self._loop.close()
+
+    def _note_fault(self, task: "asyncio.Task[None]") -> None:
+        if not task.cancelled() and task.exception() is not None:
+            self._fault = task.exception()
 
     async def _end(self) -> None:
         if self._orders:
@@ -78,6 +84,7 @@ class MavsdkPilot:
         task = self._loop.create_task(self._obey(number, order))
         self._orders.add(task)
         task.add_done_callback(self._orders.discard)
+        task.add_done_callback(self._note_fault)
 
     async def _obey(self, number: int, order: Order) -> None:
         reason = "no autopilot is there" if self._vehicle is None else await self._vehicle.obey(order)

@@ -78,7 +78,7 @@ class DroneCore:
 
     def stop(self) -> None:
         """What is in the air is landed: nobody looks after it any more."""
-        if self.craft.airborne and not self.craft.lost:
+        if self.craft.airborne and not self.craft.lost and not self.craft.flown_by_others:
             self._pilot.ask(Land())
         self._pilot.stop()
         self._journal.close()

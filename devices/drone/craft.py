@@ -121,6 +121,11 @@ class Craft:
         """The autopilot, or a person at its remote control, flies it otherwise than it is steered from here."""
         return self.steered and self._other_mode_s is not None and self.now_s - self._other_mode_s > MODE_S
 
+    @property
+    def flown_by_others(self) -> bool:
+        """In a mode in which nothing is asked of it from here, and not because it was told to land."""
+        return self._landing is None and self.telemetry is not None and self.telemetry.mode in OTHERS
+
     def why(self) -> str:
         """What the autopilot said in the last seconds, as the end of a sentence; empty when it said nothing."""
         recent = [text for stamp_s, text in self._said if self.now_s - stamp_s < RECENT_S]
@@ -144,7 +149,7 @@ class Craft:
         """Come to a stand and stay in the air. Nothing new once it does, and nothing to whom others fly."""
         if not self.moving:
             return
-        others = self._landing is None and self.telemetry is not None and self.telemetry.mode in OTHERS
+        others = self.flown_by_others
         where_m, self.stop_m = self.stop_m or self.standing_m, None
         self.moving = self.steered = False
         self.path_m, self._landing = (), None

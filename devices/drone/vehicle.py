@@ -41,6 +41,8 @@ STALE_S = 1.0
 """A position older than this is none."""
 CORE_SILENT_S = 0.5
 """Without a newer setpoint for this long the velocity is no longer fed forward."""
+CAMERA_S = 3.0
+"""A camera introduces itself after its heartbeat, which comes every second."""
 _LANDED: tuple[Landed, ...] = ("unknown", "on_ground", "in_air", "taking_off", "landing")
 _FIRMWARE: dict[int, Firmware] = {Autopilot.PX4: "px4", Autopilot.ARDUPILOT: "ardupilot"}
 
@@ -60,6 +62,7 @@ class Vehicle:
         self._battery: float | None = None
         self._health_ok = self._armable = False
         self._cameras: list[int] = []
+        self._has_camera = asyncio.Event()
         self._wanted: Setpoint | None = None
         self._fresh = asyncio.Event()
 
@@ -116,9 +119,7 @@ class Vehicle:
             case Hover():
                 return await self._hover(order.setpoint)
             case Shoot():
-                if not self._cameras:
-                    return "the vehicle has no camera on its link"
-                return await _reason(self._camera.take_photo(self._cameras[0]))
+                return await self._shoot()
 
     def fly(self, setpoint: Setpoint) -> None:
         if self._wanted is not None:
@@ -139,6 +140,13 @@ class Vehicle:
         if self._firmware == "px4":
             return await _reason(self._action.hold())
         return await self._send(setpoint) or await _reason(self._offboard.start())
+
+    async def _shoot(self) -> str:
+        try:
+            await asyncio.wait_for(self._has_camera.wait(), CAMERA_S)
+        except TimeoutError:
+            return "the vehicle has no camera on its link"
+        return await _reason(self._camera.take_photo(self._cameras[0]))
 
     async def _send_setpoints(self) -> None:
         while True:
@@ -208,6 +216,10 @@ class Vehicle:
 
     def _on_cameras(self, value: Any) -> None:
         self._cameras = sorted(camera.component_id for camera in value.cameras)
+        if self._cameras:
+            self._has_camera.set()
+        else:
+            self._has_camera.clear()
 
     def _on_capture(self, value: Any) -> None:
         self._tell(Pictured(max(0, value.index), value.is_success))

@@ -77,7 +77,7 @@ class DroneWorker:
         craft = self._craft
         self._away_s = None
         battery = craft.telemetry.battery if craft.telemetry is not None else None
-        if craft.lost:
+        if craft.lost or craft.flown_by_others:
             return
         if self._gave_up or (battery is not None and battery < LOW_BATTERY):
             craft.land()
@@ -90,7 +90,7 @@ class DroneWorker:
         craft = self._craft
         self._away_s = craft.now_s if self._away_s is None else self._away_s
         waited_s = craft.now_s - self._away_s
-        if not craft.airborne or craft.lost:
+        if not craft.airborne or craft.lost or craft.flown_by_others:
             return
         if self._gave_up or waited_s >= craft.row.land_after_s:
             self._gave_up = self._gave_up or f"landed after hovering for {waited_s:.0f} s without the hub"

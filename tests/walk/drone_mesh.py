@@ -98,7 +98,7 @@ class DroneMesh:
         self.start("router", "wire.router", "--site", str(self.site_file), "--id", "router")
         self._until(lambda: "routing on" in self.log("router"), 20.0, time.sleep)
         self.start_autopilot()
-        self.start("drone-1", "devices.drone", "--site", str(self.site_file), "--id", "drone-1")
+        self.start_drone()
         self._hub = node_for(self.site, "hub", "hub").__enter__()
         for topic in ("robot_report", "result", "event"):
             self._hub.subscribe(topic, "drone-1")
@@ -120,6 +120,13 @@ class DroneMesh:
     def start_autopilot(self) -> None:
         link = f"127.0.0.1:{self._link_port}"
         self.start("autopilot", "sim.sitl", "--firmware", self._firmware, "--udp-out", link)
+
+    def start_drone(self) -> None:
+        self.start("drone-1", "devices.drone", "--site", str(self.site_file), "--id", "drone-1")
+
+    def end(self, id: str) -> int:
+        self.processes[id].terminate()
+        return self.processes[id].wait(15)
 
     def start(self, id: str, module: str, *args: str) -> None:
         environment = {**os.environ, "PYTHONPATH": str(ROOT), "R2X_STATE": str(self.folder / "state")}

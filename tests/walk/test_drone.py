@@ -113,3 +113,44 @@ def test_what_the_vehicle_cannot_do_is_said(tmp_path: Path) -> None:
             assert words in result.reason
             assert not mesh.report.airborne
         assert "on the ground" in mesh.do("g-4", "hold").reason
+
+
+@pytest.mark.parametrize("firmware", FIRMWARES)
+def test_curves_orbits_and_looks(tmp_path: Path, firmware: str) -> None:
+    points = ((1.0, 1.0, 1.2), (2.5, 1.0, 1.5), (3.0, 2.5, 1.8), (1.5, 3.0, 1.2))
+    with DroneMesh(tmp_path, firmware) as mesh:
+        mesh.ready()
+        mesh.done("g-1", "follow_path", params={"way_m": "; ".join(" ".join(map(str, p)) for p in points)})
+        flown = [r.position_enu_m for r in mesh.reports]
+        assert all(min(dist(p, f) for f in flown) < 0.3 for p in points), "through its points"
+        mesh.reports.clear()
+        mesh.done("g-2", "orbit", point_m=(2.0, 2.0), params={"radius_m": 1.0, "turns": 0.5})
+        looked = mesh.do("g-3", "look_at", point_m=(6.0, 2.0))
+        assert looked.status == "done", looked.reason
+        assert "seen from 1.0 m beside" in looked.reason
+        mesh.done("g-4", "land")
+
+
+def test_a_process_that_is_stopped_lands_the_drone(tmp_path: Path) -> None:
+    with DroneMesh(tmp_path) as mesh:
+        mesh.ready()
+        mesh.done("g-1", "take_off")
+        assert mesh.end("drone-1") == 0
+        mesh.reports.clear()
+        mesh.start_drone()
+        mesh.until(lambda: bool(mesh.reports) and not mesh.report.airborne)
+
+
+def test_a_process_that_is_killed_in_flight_can_land_it_afterwards(tmp_path: Path) -> None:
+    with DroneMesh(tmp_path) as mesh:
+        mesh.ready()
+        mesh.give("g-1", "goto", point_m=(7.0, 3.0))
+        mesh.until(lambda: mesh.report.position_enu_m[0] > 2.5)
+        mesh.kill("drone-1")
+        mesh.lines.clear()
+        mesh.reports.clear()
+        mesh.start_drone()
+        assert mesh.ended("g-1").status == "interrupted"
+        mesh.ready()
+        assert mesh.report.airborne
+        mesh.done("g-2", "land")

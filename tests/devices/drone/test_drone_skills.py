@@ -277,6 +277,16 @@ def test_an_idle_drone_lands_before_its_battery_is_empty():
     assert not flown.craft.airborne
 
 
+def test_a_person_at_the_sticks_is_not_landed_for_want_of_a_hub():
+    flown = Flown(land_after_s=1.0)
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL", battery=0.1)
+    orders = len(flown.pilot.orders)
+    flown.pause(5.0, hub=True)
+    flown.pause(5.0)
+    assert len(flown.pilot.orders) == orders
+
+
 def test_it_comes_home_to_where_it_took_off():
     flown = Flown()
     flown.do("goto", point_m=(7.0, 3.0))

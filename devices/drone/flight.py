@@ -106,7 +106,7 @@ def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limi
     if trouble is not None:
         return trouble
     start_m = craft.standing_m
-    way = find_way(craft.space, start_m, goal_m, craft.row.flight_height_m)
+    way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m)
     if way is None:
         where = f"({goal_m[0]:.1f}, {goal_m[1]:.1f}) at {goal_m[2]:.1f} m"
         return failed("unreachable", f"there is no way to {where} that the drone fits through")

@@ -164,7 +164,7 @@ def return_home(craft: Craft, command: Command) -> Skilled:
         return failed("precondition", "it was in the air already when this process began, so home is not known")
     home_m = (*craft.home_m[:2], min(craft.row.flight_height_m, craft.space.top_m(craft.home_m)))
     craft.note = "flying home"
-    way = find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m)
+    way = yield from find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m)
     if way is None:
         return failed("unreachable", "there is no way home that the drone fits through")
     trouble = yield from fly(craft, Course(along_legs(way)), ahead)

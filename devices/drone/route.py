@@ -4,29 +4,36 @@ A* over the squares of the airspace (Hart, Nilsson and Raphael 1968), pulled str
 a wall.
 """
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from heapq import heappop, heappush
 from math import ceil, dist, hypot, inf, sqrt
+from typing import TypeVar
 
 from devices.drone.airspace import CELL_M, LEAST_HEIGHT_M, NEEDED_M, WANTED_M, Airspace, Cell
 from wire.model import Vec2, Vec3
+
+Point = TypeVar("Point", Vec2, Vec3)
 
 NEAR_WALL_PRICE = 2.0
 """So many times as dear is a step at the least distance from a wall."""
 START_FREE_M = 0.5
 """What stands around the start does not block the way out of it: the drone is there already."""
 SAME_HEIGHT_M = 0.05
+CELLS_A_STEP = 1500
+"""Some 15 ms of work."""
+Seeking = Generator[None, None, list[Point] | None]
 _STEPS = tuple((i, j, hypot(i, j)) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j)
 
 
-def find_way(space: Airspace, start_m: Vec3, goal_m: Vec3, travel_m: float) -> list[Vec3] | None:
-    """Corner points from start to goal, both included; None when there is no way.
+def find_way(space: Airspace, start_m: Vec3, goal_m: Vec3, travel_m: float) -> Seeking[Vec3]:
+    """Corner points from start to goal, both included; None when there is no way. Yields now and then: a large building
+    takes seconds.
 
     At the goal's height where it is possible all the way, otherwise at `travel_m`, otherwise below every lintel.
     """
     lintels = [space.top_m(middle_m(door.start_m, door.end_m)) for door in space.doors]
     for height_m in dict.fromkeys([goal_m[2], travel_m, *sorted(lintels)[:1]]):
-        level = _level_way(space, start_m, goal_m, height_m) if height_m >= LEAST_HEIGHT_M else None
+        level = (yield from _level_way(space, start_m, goal_m, height_m)) if height_m >= LEAST_HEIGHT_M else None
         if level is not None:
             corners = [(x, y, height_m) for x, y in level]
             return _without_repeats([start_m, *corners, goal_m])
@@ -53,7 +60,7 @@ def nearest_open(space: Airspace, point_m: Vec3, within_m: float) -> Vec3 | None
     return (*best[1], height_m) if best is not None else None
 
 
-def _level_way(space: Airspace, start_m: Vec3, goal_m: Vec3, height_m: float) -> list[Vec2] | None:
+def _level_way(space: Airspace, start_m: Vec3, goal_m: Vec3, height_m: float) -> Seeking[Vec2]:
     open_cells = space.open_cells(height_m)
     begin, end = space.cell(start_m), space.cell(goal_m)
     if end not in open_cells or height_m > space.top_m(start_m):
@@ -62,6 +69,8 @@ def _level_way(space: Airspace, start_m: Vec3, goal_m: Vec3, height_m: float) ->
     price: dict[Cell, float] = {begin: 0.0}
     todo: list[tuple[float, Cell]] = [(0.0, begin)]
     done: set[Cell] = set()
+    if _is_clear(space, start_m[:2], goal_m[:2], WANTED_M, open_cells):
+        return [start_m[:2], goal_m[:2]]
     open_cells |= _around(space, begin)
     while todo:
         _, here = heappop(todo)
@@ -70,6 +79,8 @@ def _level_way(space: Airspace, start_m: Vec3, goal_m: Vec3, height_m: float) ->
         if here in done:
             continue
         done.add(here)
+        if len(done) % CELLS_A_STEP == 0:
+            yield
         for i, j, step in _STEPS:
             cell = (here[0] + i, here[1] + j)
             if cell in done or cell not in open_cells:

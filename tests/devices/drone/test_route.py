@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from devices.drone import route
 from devices.drone.airspace import NEEDED_M, Airspace, Obstacle, to_segment_m
 from devices.drone.course import Course, along_legs
 from devices.drone.obstacles import Obstacles
-from devices.drone.route import find_way, nearest_open
+from devices.drone.route import nearest_open
 from tests.devices.drone.flat import WALLS, flat
 from wire.messages.world import ObjectState, WorldDelta, WorldState
 
@@ -20,6 +21,26 @@ place = st.tuples(st.floats(0.5, 7.5), st.floats(0.5, 3.5), st.floats(0.5, 2.0))
 
 def to_walls_m(point) -> float:
     return min(to_segment_m(point, a, b) for a, b in WALLS) - 0.05
+
+
+def find_way(*given):
+    """The whole search at once."""
+    steps = route.find_way(*given)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
+
+
+def test_a_long_search_lets_others_work():
+    site = flat(lintel_m=2.0)
+    big = site.room[0].model_copy(update={"polygon_m": ((0.0, 0.0), (40.0, 0.0), (40.0, 40.0), (0.0, 40.0))})
+    wall = site.wall[0].model_copy(update={"start_m": (20.0, 1.0), "end_m": (20.0, 40.0)})
+    space = Airspace(site.model_copy(update={"room": (big, site.room[1]), "wall": (wall,), "door": ()}))
+    pauses = sum(1 for _ in route.find_way(space, (5.0, 35.0, 1.5), (35.0, 35.0, 1.5), 1.5))
+    assert pauses > 20
+    assert find_way(space, (5.0, 35.0, 1.5), (35.0, 35.0, 1.5), 1.5) is not None
 
 
 @given(place, place)

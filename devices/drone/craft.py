@@ -86,7 +86,7 @@ class Craft:
             case Answered():
                 if (ask := self._asks.pop(news.order, None)) is not None:
                     ask.reason = news.reason
-            case Said():
+            case Said() if news.urgent:
                 self._said.append((self.now_s, news.text))
             case Pictured():
                 self.pictures.append(news)
@@ -127,7 +127,7 @@ class Craft:
         return self._landing is None and self.telemetry is not None and self.telemetry.mode in OTHERS
 
     def why(self) -> str:
-        """What the autopilot said in the last seconds, as the end of a sentence; empty when it said nothing."""
+        """What the autopilot warned of in the last seconds, as the end of a sentence; empty when there was nothing."""
         recent = [text for stamp_s, text in self._said if self.now_s - stamp_s < RECENT_S]
         return f": {recent[-1]}" if recent else ""
 

@@ -72,14 +72,14 @@ class Vehicle:
         kind = await self._system.vehicle_type()
         name = kind.name.lower().replace("_", " ")
         fault = "" if kind == VehicleType.MULTICOPTER else f"the vehicle is a {name}, and only a multicopter hovers"
-        for setting in (
-            self._telemetry.set_rate_position_velocity_ned(STREAM_HZ),
-            self._telemetry.set_rate_attitude_euler(STREAM_HZ),
-            self._action.set_takeoff_altitude(height_m),
-            self._action.set_return_to_launch_altitude(height_m),
+        for name, setting in (
+            ("the rate of its positions", self._telemetry.set_rate_position_velocity_ned(STREAM_HZ)),
+            ("the rate of its attitude", self._telemetry.set_rate_attitude_euler(STREAM_HZ)),
+            ("its take-off height", self._action.set_takeoff_altitude(height_m)),
+            ("its return height", self._action.set_return_to_launch_altitude(height_m)),
         ):
             if reason := await _reason(setting):
-                self._tell(Said(f"a setting was not taken: {reason}", urgent=False))
+                self._tell(Said(f"{name} could not be set: {reason}", urgent=name.endswith("height")))
         return Found(await self._system.get_system_id(), self._firmware, fault)
 
     def streams(self) -> list[Coroutine[Any, Any, None]]:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import dist
+from typing import Any
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -67,6 +68,29 @@ class Watched(Flown):
         if outcome is not None:
             self._end(outcome)
 
+    def happen(self, kind: str, what: Any) -> None:
+        match kind:
+            case "goal" if not self.goal:
+                self.begin(what[0], **what[1])
+                self.goal = True
+            case "cancel" if self.goal:
+                self.drop()
+            case "refuse":
+                self.pilot.refusals[what] = "command denied"
+            case "obey":
+                self.pilot.refusals.clear()
+            case "mode":
+                self.pilot.says = replace(self.pilot.says, mode=what)
+            case "health":
+                self.pilot.says = replace(self.pilot.says, **what)
+            case "stand":
+                self.craft.order = TrafficOrder(robot="drone-1", seq=1, stamp_s=1.0, go=not what)
+            case "time" | "no hub" | "silence":
+                self.pilot.silent = kind == "silence"
+                for _ in range(round(what / STEP_S)):
+                    self.step(hub=kind != "no hub")
+                self.pilot.silent = False
+
     def _check_speed(self, new: list[Setpoint]) -> None:
         if new and self.craft.telemetry is not None:
             assert dist(new[0].velocity_enu_mps, (0.0, 0.0, 0.0)) < 1.3
@@ -88,27 +112,7 @@ class Watched(Flown):
 def test_it_stays_in_its_rooms_and_ends_in_hover(events):
     flown = Watched(land_after_s=5.0)
     for kind, what in events:
-        match kind:
-            case "goal" if not flown.goal:
-                flown.begin(what[0], **what[1])
-                flown.goal = True
-            case "cancel" if flown.goal:
-                flown.drop()
-            case "refuse":
-                flown.pilot.refusals[what] = "command denied"
-            case "obey":
-                flown.pilot.refusals.clear()
-            case "mode":
-                flown.pilot.says = replace(flown.pilot.says, mode=what)
-            case "health":
-                flown.pilot.says = replace(flown.pilot.says, **what)
-            case "stand":
-                flown.craft.order = TrafficOrder(robot="drone-1", seq=1, stamp_s=1.0, go=not what)
-            case "time" | "no hub" | "silence":
-                flown.pilot.silent = kind == "silence"
-                for _ in range(round(what / STEP_S)):
-                    flown.step(hub=kind != "no hub")
-                flown.pilot.silent = False
+        flown.happen(kind, what)
     if flown.goal:
         flown.drop()
     for _ in range(20):

@@ -1,6 +1,7 @@
 """A drone's process, MAVSDK and all, against the simulated autopilot, each a real process."""
 
 import time
+from importlib.util import find_spec
 from math import dist
 from pathlib import Path
 
@@ -8,7 +9,10 @@ import pytest
 
 from tests.walk.drone_mesh import START_M, DroneMesh
 
-pytestmark = pytest.mark.walk
+pytestmark = [
+    pytest.mark.walk,
+    pytest.mark.skipif(find_spec("sim.sitl") is None, reason="this tree has no simulated autopilot to fly"),
+]
 FIRMWARES = ("ardupilot", "px4")
 
 
@@ -29,6 +33,8 @@ def test_it_flies_through_a_door_and_comes_home(tmp_path: Path, firmware: str) -
         mesh.done("g-3", "return_home")
         mesh.until(lambda: not mesh.report.airborne)
         assert dist(mesh.report.position_enu_m[:2], START_M) < 0.5
+        mesh.done("g-4", "take_off")
+        mesh.done("g-5", "land")
 
 
 @pytest.mark.parametrize("firmware", FIRMWARES)

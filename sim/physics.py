@@ -4,7 +4,7 @@ What rests in or on a receptacle is carried by it and needs no body of its own; 
 until something touches it. The gripper moves things by changing the scene and telling this module.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import atan2
 
@@ -55,6 +55,8 @@ class Physics:
         self.bullet = open_bullet()
         self._last_contact: dict[tuple[str, str], int] = {}
         self._touching: set[str] = set()
+        self._at_rest = False
+        """The last steps have changed nothing."""
         self._loose: dict[int, int] = {}
         self._add_building()
         self.robots = {start.id: self._add_robot(k, start) for k, start in enumerate(robots)}
@@ -87,8 +89,19 @@ class Physics:
     # Time
 
     def advance(self, steps: int) -> None:
-        """Let `steps` physics steps of 1/240 s pass."""
+        """Let `steps` physics steps of 1/240 s pass. Where they have changed nothing, and nobody is asked to move, they
+        change nothing again."""
         rovers = tuple(self.robots.values())
+        if self._at_rest and not any(rover.wish.moves for rover in rovers):
+            self.step_count += steps
+        else:
+            before = self._states()
+            self._step(rovers, steps)
+            self._at_rest = not (self._legs or self._touching) and self._states() == before and self._loose_asleep()
+        for rover in rovers:
+            rover.tilt(steps * STEP_S)
+
+    def _step(self, rovers: Sequence[Rover], steps: int) -> None:
         for _ in range(steps):
             if self.step_count % PUSH_EVERY == 0:
                 self._count_contacts()
@@ -98,8 +111,11 @@ class Physics:
             self.step_count += 1
         for rover in rovers:
             rover.moved_on()
-            rover.tilt(steps * STEP_S)
         self._follow_loose()
+
+    def _states(self) -> list[object]:
+        """Of the robots, to the last bit."""
+        return [rover.state() for rover in self.robots.values()]
 
     def _count_contacts(self) -> None:
         self._touching.clear()
@@ -128,6 +144,7 @@ class Physics:
 
     def place(self, key: int) -> None:
         """Make the physics agree with the scene about one thing that was taken, put or lies on the floor."""
+        self._at_rest = False
         body = self.scene.bodies[key]
         lies = body.parent is None and body.held_by is None and not body.gone
         if is_furniture(body) or not lies:
@@ -171,8 +188,16 @@ class Physics:
 
     def awake_count(self) -> int:
         """How many bodies the solver is busy with."""
-        speeds = (self.bullet.getBaseVelocity(b) for b in self._loose.values())
-        return len(self.robots) + sum(any(linear) or any(angular) for linear, angular in speeds)
+        return len(self.robots) + sum(self._loose_speeds())
+
+    def _loose_asleep(self) -> bool:
+        return not any(self._loose_speeds())
+
+    def _loose_speeds(self) -> Iterator[bool]:
+        """Whether each loose thing moves."""
+        for loose in self._loose.values():
+            linear, angular = self.bullet.getBaseVelocity(loose)
+            yield any(linear) or any(angular)
 
     # What else there is
 

@@ -131,6 +131,36 @@ def test_the_same_commands_give_the_same_world_to_the_last_bit(make_physics):
     assert episode() == episode()
 
 
+def test_a_world_at_rest_goes_on_exactly_as_if_every_step_had_been_worked_out(make_physics):
+    def run(awake):
+        physics = make_physics(((1.5, 2.5), 0.3), ((4.0, 1.0), 1.0))
+        seen = []
+        for tick in range(160):
+            if awake:
+                physics.place(FRIDGE)  # changes nothing, but has the next step worked out
+            if tick in (40, 100):
+                physics.robots["dog-1"].wish = Wish(0.6, 0.1, 0.4)
+            if tick in (60, 130):
+                physics.robots["dog-1"].wish = Wish()
+            physics.advance(12)
+            seen.append(([rover.state() for rover in physics.robots.values()], physics.step_count, physics.collisions))
+        return seen
+
+    assert run(awake=False) == run(awake=True)
+
+
+def test_a_sweep_among_things_that_stand_is_as_good_as_a_new_one(make_physics):
+    physics = make_physics(((1.5, 2.5), 0.3), ((4.0, 1.0), 1.0))
+    lidar = Lidar(physics, "dog-1")
+    first = lidar.sweep()
+    physics.advance(12)
+    assert lidar.sweep() == first
+    physics.robots["dog-2"].wish = Wish(forward_mps=0.5)
+    physics.advance(120)
+    assert lidar.sweep() == Lidar(physics, "dog-1").sweep()
+    assert lidar.sweep() != first, "the other robot is seen to have moved"
+
+
 def test_the_lidar_measures_the_walls_and_sees_other_robots(make_physics):
     physics = make_physics(((2.5, 2.5), 0.0), ((2.5, 3.5), 0.0))
     ranges = Lidar(physics, "dog-1").sweep()

@@ -256,13 +256,13 @@ class Device:
     # What is said
 
     def _status(self, now_s: float) -> RobotStatus:
-        if self.hub_lost(now_s):
+        pose = self._worker.pose
+        if self.hub_lost(now_s) or (pose is not None and pose.lost):
             return "lost"
         if self._job is None:
             return "idle"
         if self._job.cancelled:
             return "canceling"
-        pose = self._worker.pose
         return "holding" if pose is not None and pose.standing_by_order else "executing"
 
     def _tell(self, now_s: float) -> None:

@@ -38,6 +38,9 @@ class Reporter:
             path_m=pose.path_m,
             travelled_m=pose.travelled_m,
             action_steps=pose.action_steps,
+            velocity_enu_mps=pose.velocity_enu_mps,
+            airborne=pose.airborne,
+            battery=pose.battery,
         )
         self._node.publish("robot_report", report, self.id)
 

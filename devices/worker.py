@@ -32,6 +32,12 @@ class Pose:
     """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
     holding_type: str | None = None
     """What the gripper takes the thing in the hand for, if it can tell."""
+    velocity_enu_mps: Vec3 | None = None
+    airborne: bool = False
+    battery: float | None = None
+    """What is left of it, 0 to 1."""
+    lost: bool = False
+    """What moves the body does not answer: the rest is what it said last."""
 
 
 class Worker(Protocol):

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
+from wire.airlink import link_fault
 from wire.catalogue import PROP_FLAG, REPORTED, SMART_TYPES, catalogue
 from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
@@ -23,6 +24,8 @@ class Room(Message):
     name: str
     kind: Literal["Kitchen", "LivingRoom", "Bedroom", "Bathroom", "Other"]
     polygon_m: tuple[Vec2, ...] = Field(min_length=3)
+    height_m: float = Field(default=2.5, gt=0.0)
+    """Of its ceiling; only what flies asks."""
 
 
 class Wall(Message):
@@ -38,6 +41,8 @@ class Door(Message):
     rooms: tuple[Id, Id]
     start_m: Vec2
     end_m: Vec2
+    height_m: float = Field(default=2.0, gt=0.0)
+    """Of its lintel; only what flies asks."""
 
 
 class Camera(Message):
@@ -59,11 +64,21 @@ class Robot(Message):
     id: Id
     """That of its process."""
     kind: Word
-    """What it is: `quadruped` walks on `devices.quadruped`; any other word is that of your own device."""
+    """`quadruped` walks on `devices.quadruped`, `drone` flies on `devices.drone`; any other is your own device's."""
     start_m: Vec2
     start_yaw_deg: float = 0.0
     lost_hub_s: float = Field(default=2.0, gt=0.0)
-    """Stand still after this long without the hub."""
+    """Stand still, or hover, after this long without the hub."""
+    link: str | None = None
+    """A drone's autopilot: `udpin://`, `udpout://` or `tcpout://` with HOST:PORT, `serial://` with DEVICE:BAUD."""
+    land_after_s: float = Field(default=10.0, ge=0.0)
+    """A drone that hovers for want of the hub lands after this."""
+    flight_height_m: float = Field(default=1.5, ge=0.5, le=50.0)
+    """Where a drone flies when nobody says how high."""
+    origin_enu_m: Vec3 = (0.0, 0.0, 0.0)
+    """Where the local frame of a drone's autopilot has its origin."""
+    north_deg: float = 90.0
+    """Where that frame's north points: 90 when the site's y axis does."""
 
 
 class Process(Message):
@@ -171,7 +186,8 @@ def parse_site(data: dict[str, Any], where: str) -> Site:
         site = Site.model_validate(_tuples(_on_its_clock(data)))
     except ValidationError as error:
         raise SiteError(f"{where}: {describe(error, Site)}") from None
-    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site), *_no_owner(site), *_vain_faults(site)]
+    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site), *_no_owner(site)]
+    faults += [*_bad_links(site), *_vain_faults(site)]
     if faults:
         raise SiteError(f"{where}: {'; '.join(faults)}")
     return site
@@ -224,6 +240,12 @@ def _no_owner(site: Site) -> Iterator[str]:
     told = "mode" in site.clock.model_fields_set and site.clock.mode == "lockstep"
     if told and all(process.role != "sim" for process in site.process):
         yield "clock.mode: lockstep needs a process with the role sim, which owns the time; add one, or set wall"
+
+
+def _bad_links(site: Site) -> Iterator[str]:
+    for number, robot in enumerate(site.robot):
+        if fault := link_fault(robot.id, robot.kind, robot.link):
+            yield f"robot.{number}.link: {fault}"
 
 
 def _vain_faults(site: Site) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """A skill asked for by its name, which is how one is asked for whose effect no goal can say.
 
     [ROBOT:] do SKILL [on OBJECT | in ROOM] [PARAMETER=VALUE ...]
+    [ROBOT:] inspect OBJECT or ROOM from above [PARAMETER=VALUE ...]
 
 The object or the room is said in words or by its id. Skills that goals are reached with are not asked for in this way.
 """
@@ -8,6 +9,7 @@ The object or the room is said in words or by its id. Skills that goals are reac
 import json
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 
 from planners.scripted.goals import read_goals
 from planners.scripted.syntax import Unclear
@@ -18,12 +20,20 @@ from wire.messages.goal import Selector
 from wire.messages.plan import KNOWN_ACTIONS, Param, Plan, PlanNode, PlanRequest, SkillCard
 
 _TOLD = re.compile(r"(?:(?P<robot>[a-z0-9-]+) *[:,] *)?do +(?P<skill>[a-z][a-z0-9_]*)\b(?P<rest>.*)", re.I | re.S)
+_FROM_ABOVE = re.compile(
+    r"(?P<robot>[a-z0-9-]+ *[:,] *)?(?:inspect|check|look at|view|see|photograph) +(?P<place>.+?) +from +above\b(?P<rest>.*)",
+    re.I | re.S,
+)
+_FROM_ABOVE_SKILL = "inspect_from_above"
 _PARAMETER = re.compile(r"\b([A-Za-z]\w{0,31})=(\S+)")
 
 
 def read_told(request: PlanRequest, planner: str) -> Plan | None:
     """The plan that the instruction spells out; None when it names no skill. Raises Unclear when it cannot be done."""
-    told = _TOLD.fullmatch(request.instruction.strip().rstrip(".!"))
+    instruction = request.instruction.strip().rstrip(".!")
+    if (above := _FROM_ABOVE.fullmatch(instruction)) is not None:
+        instruction = f"{above['robot'] or ''}do {_FROM_ABOVE_SKILL} in {above['place']}{above['rest']}"
+    told = _TOLD.fullmatch(instruction)
     if told is None:
         return None
     name = told["skill"].lower()
@@ -77,14 +87,25 @@ def _params(text: str) -> Iterator[tuple[str, Param]]:
 
 
 def _places(text: str, card: SkillCard, request: PlanRequest) -> list[tuple[str | None, str | None]]:
-    """The object or the room that each node is about."""
+    """The object or the room that each node is about. A skill that takes both may have either after `in`."""
     words = re.sub(r"^\s*(on|to|in|with)\b", "", text, flags=re.I).strip(" ,")
     if not words:
         return [(None, None)]
-    if '"target"' in card.parameters:
+    takes_object = '"target"' in card.parameters
+    if takes_object and '"room"' in card.parameters and re.match(r"\s*in\b", text, re.I):
+        with suppress(Unclear):
+            return _rooms(words, request)
+    if takes_object:
         found = read_goals(f"find {words}", request.world)
         return [(id, None) for goal in found for id in _objects(goal.subject, words, request)]
-    return [(None, goal.subject.room) for goal in read_goals(f"go to {words}", request.world)]
+    return _rooms(words, request)
+
+
+def _rooms(words: str, request: PlanRequest) -> list[tuple[str | None, str | None]]:
+    goals = read_goals(f"go to {words}", request.world)
+    if any(goal.subject.room is None or goal.subject.type is not None for goal in goals):
+        raise Unclear(f"'{words}' is no room", words)
+    return [(None, goal.subject.room) for goal in goals]
 
 
 def _objects(selector: Selector, words: str, request: PlanRequest) -> list[str]:

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from wire.messages.plan import Action, Param, SkillCard
 from wire.messages.world import RobotStatus
-from wire.model import Id, Message, Stamp, Text, Vec2, Vec3, Word
+from wire.model import Id, Message, Probability, Stamp, Text, Vec2, Vec3, Word
 
 
 class Target(Message):
@@ -138,6 +138,11 @@ class RobotReport(Message):
     path_m: tuple[Vec2, ...] = ()
     travelled_m: float = Field(default=0.0, ge=0.0)
     action_steps: int = Field(default=0, ge=0)
+    velocity_enu_mps: Vec3 | None = None
+    airborne: bool = False
+    """Off the ground: `position_enu_m` says how high."""
+    battery: Probability | None = None
+    """What is left of it, where the robot can tell."""
 
 
 class TrafficOrder(Message):

@@ -1,0 +1,1 @@
+"""Drones: skills over an autopilot that speaks MAVLink."""

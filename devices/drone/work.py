@@ -1,0 +1,149 @@
+"""One goal at a time, a step at a time; and what the drone does by itself: without the hub, and on a low battery."""
+
+from math import dist
+
+from devices.drone.craft import Craft
+from devices.drone.flight import Trouble, go_to
+from devices.drone.moves import Skilled
+from devices.drone.places import room_of
+from devices.drone.route import nearest_open
+from devices.drone.skills import SKILLS
+from devices.worker import Outcome, Pose
+from wire.messages.command import Command, DeviceCard
+from wire.model import Vec2
+
+RADIUS_M, SPEED_MPS = 0.3, 1.0
+LOW_BATTERY = 0.12
+"""An idle drone lands with less; one at work is brought down by its autopilot's own failsafe."""
+ASIDE_AGAIN_M, ASIDE_SLACK_M = 0.3, 1.0
+THROUGH = object()
+
+
+class DroneWorker:
+    """See devices.worker.Worker."""
+
+    committed = False
+    """Whatever it does, it can stop and hover."""
+
+    def __init__(self, craft: Craft) -> None:
+        self._craft = craft
+        self._skill: Skilled | None = None
+        self._away_s: float | None = None
+        self._gave_up = ""
+        self._aside: Trouble | None = None
+        self._aside_m: Vec2 | None = None
+
+    def card(self, boot_id: str) -> DeviceCard:
+        return DeviceCard(
+            id=self._craft.id,
+            kind="drone",
+            boot_id=boot_id,
+            skills=tuple(skill.card() for skill in SKILLS.values()),
+            radius_m=RADIUS_M,
+            speed_mps=SPEED_MPS,
+        )
+
+    def fault_of(self, command: Command) -> str:
+        skill = SKILLS.get(command.action)
+        if skill is None:
+            return f"{self._craft.id} cannot {command.action}; it can {', '.join(SKILLS)}"
+        if command.room is not None and room_of(self._craft, command.room) is None:
+            return f"there is no room {command.room} on the site"
+        return skill.fault_of(command)
+
+    def begin(self, command: Command) -> None:
+        craft = self._craft
+        craft.note, craft.fraction, self._gave_up = command.action, 0.0, ""
+        self._skill = SKILLS[command.action].run(craft, command)
+
+    def work(self, now_s: float) -> Outcome | None:
+        craft = self._craft
+        self._away_s = None
+        if craft.lost:
+            return Outcome("failed", "driver", f"the autopilot is not heard any more{craft.why()}")
+        if self._gave_up:
+            craft.land()
+            return None if craft.airborne else Outcome("failed", "lost_hub", self._gave_up)
+        if self._skill is None or self._step_aside():
+            return None
+        try:
+            next(self._skill)
+        except StopIteration as end:
+            outcome: Outcome = end.value
+            return outcome
+        return None
+
+    def idle(self, now_s: float) -> None:
+        craft = self._craft
+        self._away_s = None
+        battery = craft.telemetry.battery if craft.telemetry is not None else None
+        if craft.lost or craft.flown_by_others:
+            return
+        if self._gave_up or (battery is not None and battery < LOW_BATTERY):
+            craft.land()
+            self._gave_up = self._gave_up if craft.airborne else ""
+        elif not self._step_aside():
+            craft.hover()
+
+    def halt(self) -> None:
+        """Hover while the hub is away, and after a time land; once it has begun to, it does not stop half-way."""
+        craft = self._craft
+        self._away_s = craft.now_s if self._away_s is None else self._away_s
+        waited_s = craft.now_s - self._away_s
+        if not craft.airborne or craft.lost or craft.flown_by_others:
+            return
+        if self._gave_up or waited_s >= craft.row.land_after_s:
+            self._gave_up = self._gave_up or f"landed after hovering for {waited_s:.0f} s without the hub"
+            craft.land()
+        else:
+            craft.hover()
+
+    def drop(self) -> None:
+        if self._skill is not None:
+            self._skill.close()
+        self._skill = None
+        if not self._gave_up:
+            self._craft.hover()
+
+    @property
+    def pose(self) -> Pose | None:
+        craft = self._craft
+        if craft.telemetry is None:
+            return None
+        held = craft.airborne and not craft.may_move
+        return Pose(
+            position_enu_m=craft.position_m,
+            yaw_rad=craft.yaw_rad,
+            path_m=craft.path_m,
+            travelled_m=craft.travelled_m,
+            action_steps=craft.action_steps,
+            holding=False,
+            standing_by_order=held,
+            held_up=held or self._aside_m is not None,
+            velocity_enu_mps=craft.velocity_mps,
+            airborne=craft.airborne,
+            battery=craft.telemetry.battery,
+            lost=craft.lost,
+        )
+
+    @property
+    def progress(self) -> tuple[float, str]:
+        return (max(0.0, min(1.0, self._craft.fraction)), self._craft.note)
+
+    def _step_aside(self) -> bool:
+        """Whether this step went into clearing the way for somebody; on the ground nobody can be made way for."""
+        craft = self._craft
+        wanted = craft.order.step_aside_m if craft.order is not None else None
+        if wanted is None or not craft.airborne or craft.landing:
+            if self._aside_m is not None:
+                self._aside = self._aside_m = None
+                craft.hover()
+            return False
+        if self._aside_m is None or dist(wanted, self._aside_m) > ASIDE_AGAIN_M:
+            goal_m = nearest_open(craft.space, (*wanted, craft.position_m[2]), ASIDE_SLACK_M)
+            craft.hover()
+            self._aside_m, self._aside = wanted, go_to(craft, goal_m) if goal_m is not None else None
+        if self._aside is not None and next(self._aside, THROUGH) is THROUGH:
+            self._aside = None
+            craft.hover()
+        return True

@@ -1,0 +1,138 @@
+"""A pilot whose autopilot does at once what it is told, unless the test says otherwise."""
+
+from dataclasses import replace
+
+from devices.drone.airspace import Airspace
+from devices.drone.craft import Craft
+from devices.drone.pilot import (
+    Answered,
+    Arm,
+    Disarm,
+    Found,
+    Hover,
+    Land,
+    News,
+    Order,
+    Pictured,
+    Setpoint,
+    Shoot,
+    Steer,
+    TakeOff,
+    Telemetry,
+)
+from devices.drone.work import DroneWorker
+from devices.worker import Outcome
+from tests.devices.drone.flat import flat
+from wire.messages.command import Command
+
+STEP_S = 0.05
+STANDING = Telemetry((1.0, 1.0, 0.0), (0.0, 0.0, 0.0), 0.0, False, "on_ground", "HOLD", 0.9, True, True)
+
+
+class ScriptedPilot:
+    """`refusals`: by the type of an order, what the autopilot answers instead of doing it."""
+
+    def __init__(self) -> None:
+        self.orders: list[Order] = []
+        self.setpoints: list[Setpoint] = []
+        self.refusals: dict[type[Order], str] = {}
+        self.says = STANDING
+        self.silent = False
+        self.picture = Pictured(7, True)
+        self._news: list[News] = [Found(1, "px4")]
+
+    def start(self) -> None: ...
+
+    def stop(self) -> None: ...
+
+    def ask(self, order: Order) -> int:
+        self.orders.append(order)
+        refusal = self.refusals.get(type(order), "")
+        if not refusal:
+            self._do(order)
+        self.tell(Answered(len(self.orders), refusal))
+        return len(self.orders)
+
+    def fly(self, setpoint: Setpoint) -> None:
+        self.setpoints.append(setpoint)
+        if self.says.mode == "OFFBOARD":
+            self.says = replace(
+                self.says,
+                position_enu_m=setpoint.position_enu_m,
+                velocity_enu_mps=setpoint.velocity_enu_mps,
+                yaw_rad=setpoint.yaw_rad,
+            )
+
+    def tell(self, news: News) -> None:
+        self._news.append(news)
+
+    def news(self) -> list[News]:
+        news, self._news = self._news, []
+        return [] if self.silent else [*news, self.says]
+
+    def _do(self, order: Order) -> None:
+        x, y, z = self.says.position_enu_m or (0.0, 0.0, 0.0)
+        match order:
+            case Arm() | Disarm():
+                self.says = replace(self.says, armed=isinstance(order, Arm))
+            case TakeOff():
+                up_m = (x, y, z + order.height_m)
+                self.says = replace(self.says, position_enu_m=up_m, landed="in_air", mode="HOLD")
+            case Land():
+                self.says = replace(self.says, position_enu_m=(x, y, 0.0), landed="on_ground", armed=False, mode="LAND")
+            case Steer():
+                self.says = replace(self.says, mode="OFFBOARD")
+            case Hover():
+                self.says = replace(self.says, mode="HOLD", velocity_enu_mps=(0.0, 0.0, 0.0))
+            case Shoot():
+                self.tell(self.picture)
+
+
+class Flown:
+    """A drone's worker in its two rooms, stepped through time."""
+
+    def __init__(self, **robot: object) -> None:
+        site = flat(**robot)
+        self.pilot = ScriptedPilot()
+        self.craft = Craft(site.robot[0], Airspace(site), self.pilot)
+        self.worker = DroneWorker(self.craft)
+        self.now_s = 100.0
+        self.tick()
+
+    def tick(self) -> None:
+        self.now_s += STEP_S
+        self.craft.now_s = self.now_s
+        for news in self.pilot.news():
+            self.craft.hear(news)
+
+    def begin(self, action: str, **fields: object) -> None:
+        given = {"epoch": 1, "robot": "drone-1", "valid_until_s": 1e6, "timeout_s": 60.0, **fields}
+        command = Command.model_validate({"goal_id": "g-1", "action": action, **given})
+        fault = self.worker.fault_of(command)
+        assert not fault, fault
+        self.worker.begin(command)
+
+    def work(self, seconds: float) -> Outcome | None:
+        """Until the goal ends, or that long."""
+        for _ in range(round(seconds / STEP_S)):
+            self.tick()
+            outcome = self.worker.work(self.now_s)
+            if outcome is not None:
+                self.worker.drop()
+                return outcome
+        return None
+
+    def do(self, action: str, **fields: object) -> Outcome:
+        self.begin(action, **fields)
+        outcome = self.work(200.0)
+        assert outcome is not None, f"not done after 200 s: {self.worker.progress}"
+        return outcome
+
+    def pause(self, seconds: float, hub: bool = False) -> None:
+        """Time without a goal, or without the hub."""
+        for _ in range(round(seconds / STEP_S)):
+            self.tick()
+            if hub:
+                self.worker.halt()
+            else:
+                self.worker.idle(self.now_s)

@@ -1,0 +1,121 @@
+"""Whatever comes in whatever order: the drone never runs off, and without a goal it hovers, lands or stands."""
+
+from dataclasses import replace
+from math import dist
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from devices.drone.pilot import Arm, Hover, Land, Order, Setpoint, Shoot, Steer, TakeOff
+from devices.worker import Outcome
+from tests.devices.drone.scripted import STEP_S, Flown
+from wire.messages.command import TrafficOrder
+
+GOALS: tuple[tuple[str, dict[str, object]], ...] = (
+    ("take_off", {}),
+    ("land", {}),
+    ("goto", {"point_m": (6.0, 3.0)}),
+    ("goto", {"room": "west", "params": {"height_m": 1.0, "yaw_deg": 45.0}}),
+    ("goto", {"point_m": (20.0, 3.0)}),
+    ("hold", {"params": {"seconds": 1.0}}),
+    ("orbit", {"point_m": (2.0, 2.0), "params": {"radius_m": 0.8}}),
+    ("inspect_from_above", {"room": "east"}),
+    ("construct_map", {"room": "west", "params": {"spacing_m": 2.0}}),
+    ("return_home", {}),
+    ("take_picture", {}),
+)
+REFUSABLE: tuple[type[Order], ...] = (Arm, TakeOff, Land, Steer, Hover, Shoot)
+happenings = st.one_of(
+    st.tuples(st.just("goal"), st.sampled_from(GOALS)),
+    st.tuples(st.just("cancel"), st.none()),
+    st.tuples(st.just("time"), st.floats(0.1, 8.0)),
+    st.tuples(st.just("no hub"), st.floats(0.1, 15.0)),
+    st.tuples(st.just("silence"), st.floats(0.1, 4.0)),
+    st.tuples(st.just("refuse"), st.sampled_from(REFUSABLE)),
+    st.tuples(st.just("obey"), st.none()),
+    st.tuples(st.just("mode"), st.sampled_from(("RETURN_TO_LAUNCH", "POSCTL", "HOLD"))),
+    st.tuples(st.just("health"), st.sampled_from(({"located": False}, {"battery": 0.1}, {"battery": 0.9}))),
+    st.tuples(st.just("stand"), st.booleans()),
+)
+
+
+class Watched(Flown):
+    """Checks after every step what must always be so."""
+
+    goal = False
+
+    def tick(self) -> None:
+        before = len(self.pilot.setpoints)
+        super().tick()
+        assert len(self.pilot.setpoints) == before
+
+    def step(self, hub: bool) -> None:
+        self.tick()
+        sent = len(self.pilot.setpoints)
+        outcome = None
+        if not hub:
+            self.worker.halt()
+        elif self.goal:
+            outcome = self.worker.work(self.now_s)
+        else:
+            self.worker.idle(self.now_s)
+        new = self.pilot.setpoints[sent:]
+        assert len(new) <= 1
+        assert hub or not new, "nothing moves without the hub"
+        assert all(0.0 < s.position_enu_m[0] < 8.0 and 0.0 < s.position_enu_m[1] < 4.0 for s in new)
+        self._check_speed(new)
+        if outcome is not None:
+            self._end(outcome)
+
+    def happen(self, kind: str, what: Any) -> None:
+        match kind:
+            case "goal" if not self.goal:
+                self.begin(what[0], **what[1])
+                self.goal = True
+            case "cancel" if self.goal:
+                self.drop()
+            case "refuse":
+                self.pilot.refusals[what] = "command denied"
+            case "obey":
+                self.pilot.refusals.clear()
+            case "mode":
+                self.pilot.says = replace(self.pilot.says, mode=what)
+            case "health":
+                self.pilot.says = replace(self.pilot.says, **what)
+            case "stand":
+                self.craft.order = TrafficOrder(robot="drone-1", seq=1, stamp_s=1.0, go=not what)
+            case "time" | "no hub" | "silence":
+                self.pilot.silent = kind == "silence"
+                for _ in range(round(what / STEP_S)):
+                    self.step(hub=kind != "no hub")
+                self.pilot.silent = False
+
+    def _check_speed(self, new: list[Setpoint]) -> None:
+        if new and self.craft.telemetry is not None:
+            assert dist(new[0].velocity_enu_mps, (0.0, 0.0, 0.0)) < 1.3
+
+    def _end(self, outcome: Outcome) -> None:
+        assert outcome.reason
+        assert outcome.status in ("done", "failed")
+        self.drop()
+
+    def drop(self) -> None:
+        self.goal = False
+        self.worker.drop()
+        assert not self.craft.steered
+        assert self.craft.path_m == ()
+
+
+@settings(max_examples=60)
+@given(st.lists(happenings, min_size=1, max_size=14))
+def test_it_stays_in_its_rooms_and_ends_in_hover(events):
+    flown = Watched(land_after_s=5.0)
+    for kind, what in events:
+        flown.happen(kind, what)
+    if flown.goal:
+        flown.drop()
+    for _ in range(20):
+        flown.step(hub=True)
+    moving = [order for order in flown.pilot.orders if not isinstance(order, Shoot | Arm)]
+    assert not moving or not isinstance(moving[-1], Steer) or flown.craft.flown_by_others or not flown.craft.airborne

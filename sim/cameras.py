@@ -1,7 +1,7 @@
 """The cameras' drivers: who takes a picture at which tick, and the picture as a message."""
 
-from dataclasses import dataclass
-from math import cos, radians, sin
+from dataclasses import dataclass, replace
+from math import cos, pi, radians, sin
 
 import cv2
 import numpy as np
@@ -13,20 +13,29 @@ from sim.render.picture import Content
 from sim.rover import MAST_FORWARD_M, MAST_TOP_M
 from sim.scene import Vec3
 from wire import site as site_file
+from wire.frames import body_to_enu, heading_to_yaw_rad, ned_to_enu
 from wire.messages.driver import CameraFrame
 
 JPEG_QUALITY = 85
 MAST_WIDTH_PX, MAST_HEIGHT_PX, MAST_FOCAL_PX = 480, 360, 240.0
 MAST_HZ = 2.0
 DEPTH_RANGE_M = 10.0
+GIMBAL_WIDTH_PX, GIMBAL_HEIGHT_PX, GIMBAL_FOCAL_PX = 480, 360, 240.0
+GIMBAL_HZ = 2.0
+GIMBAL_FLU_M: Vec3 = (0.13, 0.0, 0.045)
+"""From the point between a drone's feet."""
+GIMBALS = {"front": 0.25, "down": pi / 2.0}
+"""A drone's cameras and how far they look down, in radians."""
 
 
 @dataclass(frozen=True)
 class _Slot:
-    """One camera's place in time: a picture at every tick with tick % every == phase."""
+    """One camera's place in time: a picture at every tick with tick % every == phase. What is not fixed is carried."""
 
     id: str
     fixed: site_file.Camera | None
+    carrier: str
+    tilt_down_rad: float
     every: int
     phase: int
 
@@ -49,12 +58,12 @@ class Cameras:
     def __init__(self, site: site_file.Site, physics: Physics, robots: dict[str, Locomotion]) -> None:
         self._physics = physics
         self._robots = robots
-        fixed = [(c.id, c, c.picture_hz) for c in site.camera if c.source == "mesh"]
-        rows = fixed + [(robot, None, MAST_HZ) for robot in sorted(robots)]
-        self._slots = []
-        for index, (camera, pose, rate_hz) in enumerate(rows):
-            every = max(1, round(1.0 / (rate_hz * site.clock.step_s)))
-            self._slots.append(_Slot(camera, pose, every, (index * every // len(rows)) % every))
+        rows = [_Slot(c.id, c, "", 0.0, _every(site, c.picture_hz), 0) for c in site.camera if c.source == "mesh"]
+        rows += [_Slot(robot, None, robot, 0.0, _every(site, MAST_HZ), 0) for robot in sorted(robots)]
+        for drone in sorted(physics.drones):
+            for name, tilt_rad in GIMBALS.items():
+                rows.append(_Slot(f"{drone}-{name}", None, drone, tilt_rad, _every(site, GIMBAL_HZ), 0))
+        self._slots = [replace(row, phase=(k * row.every // len(rows)) % row.every) for k, row in enumerate(rows)]
         self._seq = {slot.id: 0 for slot in self._slots}
         self._newest = {slot.id: _Shot() for slot in self._slots}
 
@@ -64,8 +73,14 @@ class Cameras:
 
     def shoot(self, renderer: Renderer, tick: int, now_s: float) -> list[CameraFrame]:
         """The pictures due at this tick."""
-        due = [slot for slot in self._slots if tick % slot.every == slot.phase]
-        return [self._fixed(renderer, s.fixed, now_s) if s.fixed else self._mast(renderer, s.id, now_s) for s in due]
+        return [self._take(renderer, s, now_s) for s in self._slots if tick % s.every == s.phase]
+
+    def _take(self, renderer: Renderer, slot: _Slot, now_s: float) -> CameraFrame:
+        if slot.fixed is not None:
+            return self._fixed(renderer, slot.fixed, now_s)
+        if slot.carrier in self._robots:
+            return self._mast(renderer, slot.id, now_s)
+        return self._gimbal(renderer, slot, now_s)
 
     def _fixed(self, renderer: Renderer, row: site_file.Camera, now_s: float) -> CameraFrame:
         yaw_rad, tilt_rad = radians(row.yaw_deg), radians(row.tilt_down_deg)
@@ -88,6 +103,24 @@ class Cameras:
         eye_m = (x + MAST_FORWARD_M * cos(yaw_rad), y + MAST_FORWARD_M * sin(yaw_rad), MAST_TOP_M)
         shot = self._shot(robot, camera, renderer, with_depth=True)
         return self._frame(robot, camera, shot, now_s, eye_m, yaw_rad)
+
+    def _gimbal(self, renderer: Renderer, slot: _Slot, now_s: float) -> CameraFrame:
+        """A drone's camera, kept level: drawn from where it is, reported from where the autopilot estimates it to be."""
+        drone = self._physics.drones[slot.carrier]
+        feet_m, yaw_rad = drone.true_pose()
+        camera = Camera(
+            body_to_enu(GIMBAL_FLU_M, feet_m, yaw_rad),
+            yaw_rad,
+            slot.tilt_down_rad,
+            GIMBAL_WIDTH_PX,
+            GIMBAL_HEIGHT_PX,
+            GIMBAL_FOCAL_PX,
+            carrier=slot.carrier,
+        )
+        told = drone.estimate
+        told_yaw_rad = heading_to_yaw_rad(told.heading_rad)
+        eye_m = body_to_enu(GIMBAL_FLU_M, ned_to_enu(told.position_ned_m), told_yaw_rad)
+        return self._frame(slot.id, camera, self._shot(slot.id, camera, renderer), now_s, eye_m, told_yaw_rad)
 
     def _shot(self, id: str, camera: Camera, renderer: Renderer, with_depth: bool = False) -> _Shot:
         drawn = renderer.render_changed(camera, self._newest[id].content, with_depth)
@@ -113,6 +146,11 @@ class Cameras:
             jpeg=shot.jpeg,
             depth_mm=shot.depth_mm,
         )
+
+
+def _every(site: site_file.Site, rate_hz: float) -> int:
+    """Ticks from one picture to the next."""
+    return max(1, round(1.0 / (rate_hz * site.clock.step_s)))
 
 
 def _jpeg(picture: Picture) -> bytes:

@@ -54,8 +54,10 @@ class GlRenderer:
     def update(self, body: Body) -> None:
         self._instances.update(body)
 
-    def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool = False) -> None:
-        self._instances.set_robot(name, position_m, yaw_rad, holding)
+    def set_robot(
+        self, name: str, position_m: Vec3, yaw_rad: float, holding: bool = False, flies: bool = False
+    ) -> None:
+        self._instances.set_robot(name, position_m, yaw_rad, holding, flies)
 
     def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
         return self._render(camera, visible_batches(self._instances, self._portals, camera), with_ids, with_depth)

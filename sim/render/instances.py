@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.render.building import RoomFinder, building_rows
+from sim.render.drone import drone_parts
 from sim.render.meshes import SHADOW, SHAPE_CODE
 from sim.render.picture import ROBOT_ID
 from sim.render.robot import robot_parts
@@ -44,13 +45,13 @@ class Instances:
         """Replace the rows of one body by what it looks like now."""
         self._set(body.key, np.zeros(0, dtype=ROW) if body.gone else self._body_rows(body))
 
-    def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool) -> None:
+    def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool, flies: bool) -> None:
         pose = (position_m, yaw_rad, holding)
         if self._poses.get(name) == pose:
             return
         self._poses[name] = pose
         number = self._robots.setdefault(name, len(self._robots))
-        rows = placed(robot_rows(number, holding), position_m, yaw_rad)
+        rows = placed(robot_rows(number, holding, flies), position_m, yaw_rad)
         rows["id"] = ROBOT_ID + number
         rows["room"], _ = self.finder.place(position_m)
         rows["rooms"] = self.finder.around(position_m, ROBOT_REACH_M)
@@ -95,7 +96,9 @@ class Instances:
 
 
 @lru_cache(maxsize=32)
-def robot_rows(number: int, holding: bool) -> Rows:
+def robot_rows(number: int, holding: bool, flies: bool) -> Rows:
+    if flies:
+        return part_rows(drone_parts(number), ROBOT_SIZE_M)[:-1]  # its shadow would hang in the air
     return part_rows(robot_parts(number, holding), ROBOT_SIZE_M)
 
 

@@ -64,8 +64,10 @@ class Renderer(Protocol):
     def update(self, body: Body) -> None:
         """Draw the body as it is now from the next picture on."""
 
-    def set_robot(self, name: str, position_m: Vec3, yaw_rad: float, holding: bool = False) -> None:
-        """Put a robot there; position is on the floor below its centre."""
+    def set_robot(
+        self, name: str, position_m: Vec3, yaw_rad: float, holding: bool = False, flies: bool = False
+    ) -> None:
+        """Put a robot there; position is where its feet are, below its centre."""
 
     def render(self, camera: Camera, with_ids: bool = False, with_depth: bool = False) -> Picture:
         """Take a picture."""

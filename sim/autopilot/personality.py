@@ -43,8 +43,10 @@ class Personality:
     """NAV_TAKEOFF: armed and in guided mode to a height above home, or by itself to a parameter's height or to AMSL."""
     setpoint_stream: bool
     """Offboard needs a stream of setpoints to be entered and to stay; without, targets stay until the next."""
-    offsets_by_frame: bool
-    """Frames 7, 8 and 9 give positions as offsets from here; without, only where the mask says so (never)."""
+    unknown_mode: Ack
+    """The result when there is no such mode."""
+    inclusions: Literal["all", "any"]
+    """Whether it must stay inside all of the fence's inclusions or inside any."""
     params: tuple[Param, ...]
 
     def mode(self, custom_mode: int) -> Mode | None:
@@ -80,7 +82,7 @@ ARDUPILOT = Personality(
         "position": 16,
     },
     also={2: "position", 17: "hold", 21: "return"},
-    armable_modes=frozenset({"stabilize", "offboard", "hold", "position", "mission"}),
+    armable_modes=frozenset({"stabilize", "offboard", "hold", "position"}),
     refused=Ack.FAILED,
     param_encoding="cast",
     mission_request="float",
@@ -89,7 +91,8 @@ ARDUPILOT = Personality(
     estimator_message="EKF_STATUS_REPORT",
     takeoff="guided",
     setpoint_stream=False,
-    offsets_by_frame=True,
+    unknown_mode=Ack.FAILED,
+    inclusions="all",
     params=ARDUPILOT_PARAMS,
 )
 
@@ -119,7 +122,8 @@ PX4 = Personality(
     estimator_message="ESTIMATOR_STATUS",
     takeoff="auto",
     setpoint_stream=True,
-    offsets_by_frame=False,
+    unknown_mode=Ack.DENIED,
+    inclusions="any",
     params=PX4_PARAMS,
 )
 

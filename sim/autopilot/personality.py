@@ -8,6 +8,8 @@ from sim.autopilot.interface import Ack, Param
 
 Mode = Literal["hold", "takeoff", "land", "return", "mission", "offboard", "position", "stabilize"]
 
+Quantity = Literal["cruise_mps", "climb_mps", "descent_mps", "landing_mps", "acceptance_m", "return_height_m"]
+
 
 @dataclass(frozen=True, slots=True)
 class Personality:
@@ -47,6 +49,8 @@ class Personality:
     """The result when there is no such mode."""
     inclusions: Literal["all", "any"]
     """Whether it must stay inside all of the fence's inclusions or inside any."""
+    quantities: dict[Quantity, tuple[str, float]]
+    """The parameter that holds each, and the factor to SI units."""
     params: tuple[Param, ...]
 
     def mode(self, custom_mode: int) -> Mode | None:
@@ -93,6 +97,14 @@ ARDUPILOT = Personality(
     setpoint_stream=False,
     unknown_mode=Ack.FAILED,
     inclusions="all",
+    quantities={
+        "cruise_mps": ("WPNAV_SPEED", 0.01),
+        "climb_mps": ("WPNAV_SPEED_UP", 0.01),
+        "descent_mps": ("WPNAV_SPEED_DN", 0.01),
+        "landing_mps": ("LAND_SPEED", 0.01),
+        "acceptance_m": ("WPNAV_RADIUS", 0.01),
+        "return_height_m": ("RTL_ALT", 0.01),
+    },
     params=ARDUPILOT_PARAMS,
 )
 
@@ -124,6 +136,14 @@ PX4 = Personality(
     setpoint_stream=True,
     unknown_mode=Ack.DENIED,
     inclusions="any",
+    quantities={
+        "cruise_mps": ("MPC_XY_CRUISE", 1.0),
+        "climb_mps": ("MPC_Z_V_AUTO_UP", 1.0),
+        "descent_mps": ("MPC_Z_V_AUTO_DN", 1.0),
+        "landing_mps": ("MPC_LAND_SPEED", 1.0),
+        "acceptance_m": ("NAV_ACC_RAD", 1.0),
+        "return_height_m": ("RTL_RETURN_ALT", 1.0),
+    },
     params=PX4_PARAMS,
 )
 

@@ -7,7 +7,7 @@ from typing import Literal
 from sim.autopilot.geo import Origin
 from sim.autopilot.interface import Severity
 from sim.autopilot.params import Params
-from sim.autopilot.personality import Mode, Personality
+from sim.autopilot.personality import Mode, Personality, Quantity
 from sim.flight.state import Estimate, Vec3, Vehicle
 
 CLEARANCE_M = 0.4
@@ -81,36 +81,11 @@ class Situation:
         north, east = self.region_ned_m[0] - self.here[0], self.region_ned_m[1] - self.here[1]
         return math.atan2(east, north) if math.hypot(north, east) > 0.2 else None
 
+    def quantity(self, name: Quantity) -> float:
+        """In SI units, from this firmware's parameter."""
+        parameter, factor = self.row.quantities[name]
+        return self.params.get(parameter) * factor
+
     @property
     def cruise_mps(self) -> float:
-        if self.speed_mps is not None:
-            return self.speed_mps
-        return (
-            self.params.get("WPNAV_SPEED") / 100 if self.row.name == "ardupilot" else self.params.get("MPC_XY_CRUISE")
-        )
-
-    @property
-    def climb_mps(self) -> float:
-        ardupilot = self.row.name == "ardupilot"
-        return self.params.get("WPNAV_SPEED_UP") / 100 if ardupilot else self.params.get("MPC_Z_V_AUTO_UP")
-
-    @property
-    def descent_mps(self) -> float:
-        ardupilot = self.row.name == "ardupilot"
-        return self.params.get("WPNAV_SPEED_DN") / 100 if ardupilot else self.params.get("MPC_Z_V_AUTO_DN")
-
-    @property
-    def landing_mps(self) -> float:
-        ardupilot = self.row.name == "ardupilot"
-        return self.params.get("LAND_SPEED") / 100 if ardupilot else self.params.get("MPC_LAND_SPEED")
-
-    @property
-    def acceptance_m(self) -> float:
-        ardupilot = self.row.name == "ardupilot"
-        return self.params.get("WPNAV_RADIUS") / 100 if ardupilot else self.params.get("NAV_ACC_RAD")
-
-    @property
-    def return_height_m(self) -> float:
-        """Height above home to return at, before the ceiling is looked at."""
-        ardupilot = self.row.name == "ardupilot"
-        return self.params.get("RTL_ALT") / 100 if ardupilot else self.params.get("RTL_RETURN_ALT")
+        return self.quantity("cruise_mps") if self.speed_mps is None else self.speed_mps

@@ -51,7 +51,6 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _real("WPNAV_RADIUS", 10, 5, 1000),  # cm
     _real("LAND_SPEED", 40, 20, 200),  # cm/s
     _real("RTL_ALT", 150, 30, 300000),  # cm
-    _real("RTL_ALT_FINAL", 0, 0, 1000),  # cm; 0: land
     _real("RTL_LOIT_TIME", 1000, 0, 60000),  # ms
     _real("RTL_SPEED", 0, 0, 2000),  # cm/s; 0: WPNAV_SPEED
     *SIMULATED,
@@ -86,7 +85,6 @@ PX4_PARAMS: tuple[Param, ...] = (
     _real("MPC_LAND_SPEED", 0.4, 0.2, 2),
     _real("NAV_ACC_RAD", 0.1, 0.05, 200),
     _real("RTL_RETURN_ALT", 1.5, 0, 150),
-    _real("RTL_DESCEND_ALT", 1, 0, 100),
     _real("RTL_LAND_DELAY", 0.5, -1, 300),  # negative: hover, do not land
     *SIMULATED,
 )

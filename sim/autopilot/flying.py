@@ -131,8 +131,7 @@ class GoHome:
     @staticmethod
     def _wait_s(now: Situation) -> float:
         if now.row.name == "ardupilot":
-            final = now.params.get("RTL_ALT_FINAL")
-            return math.inf if final > 0 else now.params.get("RTL_LOIT_TIME") / 1000
+            return now.params.get("RTL_LOIT_TIME") / 1000
         delay = now.params.get("RTL_LAND_DELAY")
         return math.inf if delay < 0 else delay
 

@@ -24,7 +24,7 @@ class Guided:
     _last_s: float = 0.0
 
     def take(self, target: Trajectory | AttitudeTarget, now_s: float) -> None:
-        self.target, self.heard_s, self.rest, self._pace = target, now_s, None, self._pace
+        self.target, self.heard_s, self.rest = target, now_s, None
         if not _accelerates(target):
             self._pace = None
 
@@ -38,8 +38,7 @@ class Guided:
     def step(self, now: Situation, now_s: float) -> Setpoint:
         span_s, self._last_s = min(0.1, now_s - self._last_s), now_s
         timeout_s = math.inf if now.row.setpoint_stream else now.params.get("GUID_TIMEOUT")
-        stays = isinstance(self.target, Trajectory) and self.target.velocity_ned_mps == FREE and not self._pace
-        if self.target is not None and now_s - self.heard_s > timeout_s and not stays:
+        if self.target is not None and now_s - self.heard_s > timeout_s and not _stays(self.target):
             self.target, self._pace = None, None
         if self.target is None:
             self.rest = self.rest or Hover()
@@ -76,6 +75,15 @@ class Guided:
         lean = math.cos(now.estimate.roll_rad) * math.cos(now.estimate.pitch_rad)
         thrust = now.vehicle.hover_thrust * (1 + _CLIMB_GAIN * missing_mps) / max(0.5, lean)
         return replace(target, thrust=max(0.0, min(1.0, thrust)))
+
+
+def _stays(target: Trajectory | AttitudeTarget) -> bool:
+    """A place alone is not forgotten."""
+    return (
+        isinstance(target, Trajectory)
+        and target.position_ned_m != FREE
+        and target.velocity_ned_mps == target.acceleration_ned_mps2 == FREE
+    )
 
 
 def _accelerates(target: Trajectory | AttitudeTarget) -> bool:

@@ -95,7 +95,7 @@ def _position(target: PositionTarget, now: Situation) -> Vec3 | str:
     return found if isinstance(found, str) else now.below_ceiling(found)
 
 
-def _yaw(target: PositionTarget, heading_rad: float) -> tuple[float | None | str, float | None]:
+def _yaw(target: PositionTarget, heading_rad: float) -> tuple[float | str | None, float | None]:
     """(heading or a sentence, rate); a heading goes before a rate, NaN means none."""
     nose: float | None = None
     rate: float | None = None

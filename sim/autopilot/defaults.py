@@ -28,9 +28,7 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _whole("ARMING_CHECK", 1, 0, 1 << 22),  # 0: none
     _real("BATT_ARM_VOLT", 0, 0, 60),
     _real("BATT_LOW_VOLT", 14.0, 0, 60),  # 0: off
-    _real("BATT_CRT_VOLT", 13.4, 0, 60),
-    _real("BATT_LOW_MAH", 0, 0, 1e6),  # what is left; 0: off
-    _real("BATT_CRT_MAH", 0, 0, 1e6),
+    _real("BATT_CRT_VOLT", 13.6, 0, 60),
     _real("BATT_LOW_TIMER", 10, 0, 120),
     _whole("BATT_FS_LOW_ACT", 2, 0, 7),  # 0 none, 1 land, 2 return, 3, 4 smart return, 5 terminate
     _whole("BATT_FS_CRT_ACT", 1, 0, 7),

@@ -75,11 +75,11 @@ def zones(items: list[Item], now: Situation) -> list[Zone] | int:
     """The fence that a whole upload describes; MAV_MISSION_RESULT when it describes none."""
     found: list[Zone] = []
     corners: list[tuple[float, float]] = []
-    command = 0
+    command, size = 0, 0.0
     for item in items:
         if result := check(item, now):
             return result
-        if corners and item.command != command:
+        if corners and (item.command, item.params[0]) != (command, size):
             return _ERROR
         if item.command == RETURN_POINT:
             continue
@@ -89,9 +89,9 @@ def zones(items: list[Item], now: Situation) -> list[Zone] | int:
         if item.command in (CIRCLE_IN, CIRCLE_OUT):
             found.append(Circle(item.command == CIRCLE_IN, point[0], point[1], item.params[0]))
             continue
-        command = item.command
+        command, size = item.command, item.params[0]
         corners.append((point[0], point[1]))
-        if len(corners) == int(item.params[0]):
+        if len(corners) == int(size):
             found.append(Polygon(command == POLYGON_IN, tuple(corners)))
             corners = []
     return _ERROR if corners else found

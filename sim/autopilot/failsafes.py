@@ -23,7 +23,7 @@ class Failsafes:
     engaged: Action = Action.NONE
     """What a failsafe has begun; the pilot who changes the mode takes over."""
     _raised: dict[str, Action] = field(default_factory=dict)
-    _due: tuple[Action, float] | None = None
+    _due: tuple[Action, float, str] | None = None
 
     @property
     def critical(self) -> bool:
@@ -57,11 +57,13 @@ class Failsafes:
             now.say(Severity.CRITICAL if acts else Severity.WARNING, f"{alarm.text}{deed}")
             if acts and delay_s > 0.0:
                 if self._due is None or alarm.action > self._due[0]:
-                    self._due = (alarm.action, now_s + delay_s)
+                    self._due = (alarm.action, now_s + delay_s, alarm.name)
                 begin = max(begin, Action.HOLD)
             elif acts:
                 begin = max(begin, alarm.action)
         self._raised = standing
+        if self._due is not None and self._due[2] not in standing:
+            self._due = None
         if self._due is not None and now_s >= self._due[1]:
             begin, self._due = max(begin, self._due[0]), None
         if not now.armed or begin <= max(self.engaged, _SEVERITY_OF_MODE.get(now.mode, Action.NONE)):

@@ -28,8 +28,6 @@ class LinkError(Exception):
 class Link(Protocol):
     """One socket and its peers."""
 
-    def fileno(self) -> int: ...
-
     def files(self) -> list[socket.socket]:
         """What to wait on for input."""
         ...
@@ -87,9 +85,6 @@ class UdpOut:
         del urgent
         return _send_to(self._socket, frame, self._to)
 
-    def fileno(self) -> int:
-        return self._socket.fileno()
-
     def files(self) -> list[socket.socket]:
         return [self._socket]
 
@@ -116,9 +111,6 @@ class UdpIn:
         self._signing = signing
         self._peers: dict[tuple[str, int], tuple[Peer, float]] = {}
         self.port: int = self._socket.getsockname()[1]
-
-    def fileno(self) -> int:
-        return self._socket.fileno()
 
     def files(self) -> list[socket.socket]:
         return [self._socket]
@@ -160,9 +152,6 @@ class TcpServer:
         self._signing = signing
         self._clients: list[_Client] = []
         self.port: int = self._socket.getsockname()[1]
-
-    def fileno(self) -> int:
-        return self._socket.fileno()
 
     def files(self) -> list[socket.socket]:
         return [self._socket, *(client.socket for client in self._clients)]

@@ -8,6 +8,8 @@ from sim.autopilot.interface import Ack, Param
 
 Mode = Literal["hold", "takeoff", "land", "return", "mission", "offboard", "position", "stabilize"]
 
+Quantity = Literal["cruise_mps", "climb_mps", "descent_mps", "landing_mps", "acceptance_m", "return_height_m"]
+
 
 @dataclass(frozen=True, slots=True)
 class Personality:
@@ -43,8 +45,12 @@ class Personality:
     """NAV_TAKEOFF: armed and in guided mode to a height above home, or by itself to a parameter's height or to AMSL."""
     setpoint_stream: bool
     """Offboard needs a stream of setpoints to be entered and to stay; without, targets stay until the next."""
-    offsets_by_frame: bool
-    """Frames 7, 8 and 9 give positions as offsets from here; without, only where the mask says so (never)."""
+    unknown_mode: Ack
+    """The result when there is no such mode."""
+    inclusions: Literal["all", "any"]
+    """Whether it must stay inside all of the fence's inclusions or inside any."""
+    quantities: dict[Quantity, tuple[str, float]]
+    """The parameter that holds each, and the factor to SI units."""
     params: tuple[Param, ...]
 
     def mode(self, custom_mode: int) -> Mode | None:
@@ -80,7 +86,7 @@ ARDUPILOT = Personality(
         "position": 16,
     },
     also={2: "position", 17: "hold", 21: "return"},
-    armable_modes=frozenset({"stabilize", "offboard", "hold", "position", "mission"}),
+    armable_modes=frozenset({"stabilize", "offboard", "hold", "position"}),
     refused=Ack.FAILED,
     param_encoding="cast",
     mission_request="float",
@@ -89,7 +95,16 @@ ARDUPILOT = Personality(
     estimator_message="EKF_STATUS_REPORT",
     takeoff="guided",
     setpoint_stream=False,
-    offsets_by_frame=True,
+    unknown_mode=Ack.FAILED,
+    inclusions="all",
+    quantities={
+        "cruise_mps": ("WPNAV_SPEED", 0.01),
+        "climb_mps": ("WPNAV_SPEED_UP", 0.01),
+        "descent_mps": ("WPNAV_SPEED_DN", 0.01),
+        "landing_mps": ("LAND_SPEED", 0.01),
+        "acceptance_m": ("WPNAV_RADIUS", 0.01),
+        "return_height_m": ("RTL_ALT", 0.01),
+    },
     params=ARDUPILOT_PARAMS,
 )
 
@@ -119,7 +134,16 @@ PX4 = Personality(
     estimator_message="ESTIMATOR_STATUS",
     takeoff="auto",
     setpoint_stream=True,
-    offsets_by_frame=False,
+    unknown_mode=Ack.DENIED,
+    inclusions="any",
+    quantities={
+        "cruise_mps": ("MPC_XY_CRUISE", 1.0),
+        "climb_mps": ("MPC_Z_V_AUTO_UP", 1.0),
+        "descent_mps": ("MPC_Z_V_AUTO_DN", 1.0),
+        "landing_mps": ("MPC_LAND_SPEED", 1.0),
+        "acceptance_m": ("NAV_ACC_RAD", 1.0),
+        "return_height_m": ("RTL_RETURN_ALT", 1.0),
+    },
     params=PX4_PARAMS,
 )
 

@@ -4,10 +4,11 @@ import math
 
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
+from sim.autopilot.geo import Origin
 from sim.autopilot.interface import Telemetry
 from sim.flight.state import Vec3
 from sim.mavlink.craft import Craft
-from sim.mavlink.pack import boot_ms, boot_us, centidegrees, finite, geodetic, i16, i32, single, u16
+from sim.mavlink.pack import boot_ms, boot_us, centidegrees, finite, i16, i32, single, u16
 from sim.mavlink.peer import Message
 
 UNKNOWN = math.nan
@@ -57,7 +58,8 @@ def above_home_m(now: Telemetry) -> float:
 
 def place(origin: Vec3, position_ned_m: Vec3) -> tuple[int, int, int]:
     """Degrees by 1e7 and millimetres AMSL."""
-    latitude, longitude, altitude_m = geodetic(origin, position_ned_m)
+    altitude_m = origin[2] - position_ned_m[2]
+    latitude, longitude = Origin(*origin).globe(position_ned_m[0], position_ned_m[1])
     return i32(latitude * 1e7), i32(longitude * 1e7), i32(altitude_m * 1000)
 
 

@@ -4,10 +4,7 @@ import math
 import struct
 from collections.abc import Iterable
 
-from sim.flight.state import Quaternion, Vec3
-
-DEGREES_M = 111_319.490_793
-"""Metres of a degree of latitude on the sphere that MAVLink's clients reckon with."""
+from sim.flight.state import Quaternion
 
 
 def whole(value: float, bits: int, signed: bool = True) -> int:
@@ -55,14 +52,6 @@ def finite(values: Iterable[float]) -> bool:
 def centidegrees(angle_rad: float) -> int:
     """0 to 35999."""
     return round(math.degrees(angle_rad) * 100) % 36000 if math.isfinite(angle_rad) else 0
-
-
-def geodetic(origin: Vec3, position_ned_m: Vec3) -> Vec3:
-    """(latitude deg, longitude deg, altitude m AMSL) of a local position; `origin` likewise."""
-    latitude, longitude, altitude_m = origin
-    north_m, east_m, down_m = position_ned_m
-    shrink = max(math.cos(math.radians(latitude)), 1e-6)
-    return (latitude + north_m / DEGREES_M, longitude + east_m / (DEGREES_M * shrink), altitude_m - down_m)
 
 
 def int_bits(value: int) -> float:

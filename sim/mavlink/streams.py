@@ -112,7 +112,7 @@ class Rates:
         return True
 
     def ask_group(self, group: int, rate_hz: int, start: bool) -> None:
-        """REQUEST_DATA_STREAM: group 0 is all of them; stopping all leaves the heartbeat and health."""
+        """REQUEST_DATA_STREAM: group 0 is all of them; stopping all leaves the heartbeat."""
         for message_id, row in MESSAGES.items():
             if row.group and group in (ALL_GROUPS, row.group) and usual_rate_hz(self.craft, message_id):
                 self.ask(message_id, 1e6 / rate_hz if start and rate_hz > 0 else -1)

@@ -28,9 +28,7 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _whole("ARMING_CHECK", 1, 0, 1 << 22),  # 0: none
     _real("BATT_ARM_VOLT", 0, 0, 60),
     _real("BATT_LOW_VOLT", 14.0, 0, 60),  # 0: off
-    _real("BATT_CRT_VOLT", 13.4, 0, 60),
-    _real("BATT_LOW_MAH", 0, 0, 1e6),  # what is left; 0: off
-    _real("BATT_CRT_MAH", 0, 0, 1e6),
+    _real("BATT_CRT_VOLT", 13.6, 0, 60),
     _real("BATT_LOW_TIMER", 10, 0, 120),
     _whole("BATT_FS_LOW_ACT", 2, 0, 7),  # 0 none, 1 land, 2 return, 3, 4 smart return, 5 terminate
     _whole("BATT_FS_CRT_ACT", 1, 0, 7),
@@ -51,7 +49,6 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _real("WPNAV_RADIUS", 10, 5, 1000),  # cm
     _real("LAND_SPEED", 40, 20, 200),  # cm/s
     _real("RTL_ALT", 150, 30, 300000),  # cm
-    _real("RTL_ALT_FINAL", 0, 0, 1000),  # cm; 0: land
     _real("RTL_LOIT_TIME", 1000, 0, 60000),  # ms
     _real("RTL_SPEED", 0, 0, 2000),  # cm/s; 0: WPNAV_SPEED
     *SIMULATED,
@@ -86,7 +83,6 @@ PX4_PARAMS: tuple[Param, ...] = (
     _real("MPC_LAND_SPEED", 0.4, 0.2, 2),
     _real("NAV_ACC_RAD", 0.1, 0.05, 200),
     _real("RTL_RETURN_ALT", 1.5, 0, 150),
-    _real("RTL_DESCEND_ALT", 1, 0, 100),
     _real("RTL_LAND_DELAY", 0.5, -1, 300),  # negative: hover, do not land
     *SIMULATED,
 )

@@ -42,6 +42,25 @@ class Hover:
 
 
 @dataclass(slots=True)
+class Travel:
+    """Go to a place; done once within a radius of it, and then stay."""
+
+    place_ned_m: Vec3
+    radius_m: float
+    heading_rad: float | None = None
+    done: bool = False
+
+    def step(self, now: Situation, now_s: float) -> Setpoint:
+        if now.vehicle.on_ground:
+            return Off()
+        if not now.estimate.position_ok:
+            return blind(now, 0.0)
+        target = now.below_ceiling(self.place_ned_m)
+        self.done = self.done or math.dist(now.here, target) < self.radius_m
+        return travel(now, target, self.heading_rad)
+
+
+@dataclass(slots=True)
 class Climb:
     """Take off to a height given as a down coordinate, straight up from where it stands."""
 
@@ -131,8 +150,7 @@ class GoHome:
     @staticmethod
     def _wait_s(now: Situation) -> float:
         if now.row.name == "ardupilot":
-            final = now.params.get("RTL_ALT_FINAL")
-            return math.inf if final > 0 else now.params.get("RTL_LOIT_TIME") / 1000
+            return now.params.get("RTL_LOIT_TIME") / 1000
         delay = now.params.get("RTL_LAND_DELAY")
         return math.inf if delay < 0 else delay
 

@@ -8,7 +8,9 @@ from sim.autopilot.interface import Ack, Param
 
 Mode = Literal["hold", "takeoff", "land", "return", "mission", "offboard", "position", "stabilize"]
 
-Quantity = Literal["cruise_mps", "climb_mps", "descent_mps", "landing_mps", "acceptance_m", "return_height_m"]
+Quantity = Literal[
+    "cruise_mps", "fastest_mps", "climb_mps", "descent_mps", "landing_mps", "acceptance_m", "return_height_m"
+]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +101,7 @@ ARDUPILOT = Personality(
     inclusions="all",
     quantities={
         "cruise_mps": ("WPNAV_SPEED", 0.01),
+        "fastest_mps": ("WPNAV_SPEED", 0.01),
         "climb_mps": ("WPNAV_SPEED_UP", 0.01),
         "descent_mps": ("WPNAV_SPEED_DN", 0.01),
         "landing_mps": ("LAND_SPEED", 0.01),
@@ -138,6 +141,7 @@ PX4 = Personality(
     inclusions="any",
     quantities={
         "cruise_mps": ("MPC_XY_CRUISE", 1.0),
+        "fastest_mps": ("MPC_XY_VEL_MAX", 1.0),
         "climb_mps": ("MPC_Z_V_AUTO_UP", 1.0),
         "descent_mps": ("MPC_Z_V_AUTO_DN", 1.0),
         "landing_mps": ("MPC_LAND_SPEED", 1.0),

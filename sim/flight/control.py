@@ -4,6 +4,8 @@ from math import hypot, pi, sqrt, tan
 
 from sim.flight.airframe import (
     ARM_M,
+    DRAG_NPMPS,
+    DRAG_NPMPS2,
     GRAVITY_MPS2,
     HOVER_THRUST,
     INERTIA_KGM2,
@@ -21,8 +23,8 @@ MAX_SPEED_MPS, MAX_CLIMB_MPS, MAX_DESCENT_MPS = 5.0, 2.5, 1.5
 _ACCELERATION_MPS2, _VERTICAL_MPS2 = 3.0, 3.0
 _BRAKING_MPS2 = 1.6
 """What is planned for when a place is approached; the rest is for what was not foreseen."""
-_PLACE_PER_S, _HEIGHT_PER_S = 1.2, 1.3
-_SPEED_PER_S, _SPEED_PER_S2 = 3.2, 1.0
+_PLACE_PER_S, _HEIGHT_PER_S = 1.5, 1.6
+_SPEED_PER_S, _SPEED_PER_S2 = 3.2, 0.6
 _CLIMB_PER_S, _CLIMB_PER_S2 = 4.0, 1.5
 _MOST_PUSH_MPS2 = 3.0
 """Bounds what the integrals have learnt."""
@@ -92,8 +94,9 @@ class Control:
             (sent[k] - before[k]) / span_s * 0.6 + (a if (a := free[k]) is not None else 0.0) for k in (0, 1, 2)
         ]  # what the wish itself accelerates is fed forward, less the lag of the attitude
         en, ee, ed = sent[0] - now.vn, sent[1] - now.ve, sent[2] - now.vd
-        an = _SPEED_PER_S * en + pushed[0] + fed[0]
-        ae = _SPEED_PER_S * ee + pushed[1] + fed[1]
+        air = (DRAG_NPMPS + DRAG_NPMPS2 * hypot(sent[0], sent[1])) / MASS_KG
+        an = _SPEED_PER_S * en + pushed[0] + fed[0] + air * sent[0]
+        ae = _SPEED_PER_S * ee + pushed[1] + fed[1] + air * sent[1]
         ad = _CLIMB_PER_S * ed + pushed[2] + fed[2]
         up = GRAVITY_MPS2 - ad
         least, most_up = 0.35 * GRAVITY_MPS2, 1.75 * GRAVITY_MPS2

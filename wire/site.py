@@ -71,14 +71,18 @@ class Process(Message):
 
     id: Id
     role: Literal["router", "hub", "planner", "cctv", "robot", "sim", "view"]
-    module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$")
+    module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$", description="a Python module, such as devices.cctv")
     host: str = "localhost"
     args: tuple[Annotated[str, Field(pattern=r"^[^\x00-\x1f]*$")], ...] = ()
     autostart: bool = True
 
 
 class Router(Message):
-    endpoint: str = Field(default="tcp/127.0.0.1:7447", pattern=r"^tcp/[^/]+:\d+$")
+    endpoint: str = Field(
+        default="tcp/127.0.0.1:7447",
+        pattern=r"^tcp/[^/]+:\d+$",
+        description="tcp/HOST:PORT, such as tcp/127.0.0.1:7447",
+    )
     secured: bool = True
 
 
@@ -125,7 +129,7 @@ class View(Message):
 
     grpc_port: int = Field(default=9876, gt=0, lt=65536)
     web_port: int = Field(default=9090, gt=0, lt=65536)
-    memory_limit: str = Field(default="64MiB", pattern=r"^\d+(KiB|MiB|GiB)$")
+    memory_limit: str = Field(default="64MiB", pattern=r"^\d+(KiB|MiB|GiB)$", description="a size, such as 64MiB")
     save: str = ""
 
 
@@ -135,7 +139,10 @@ class Hub(Message):
 
 
 class Site(Message):
-    name: str = Field(pattern=r"^[^./;\"\x00-\x1f][^/;\"\x00-\x1f]{0,59}$")
+    name: str = Field(
+        pattern=r"^[^./;\"\x00-\x1f][^/;\"\x00-\x1f]{0,59}$",
+        description="a name of at most 60 characters, without slashes, semicolons and quotes, no dot in front",
+    )
     """Also the name of the folder in which its mesh keeps its things: no slash, no dot in front."""
     realm: Id = "r2x"
     router: Router = Router()

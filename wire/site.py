@@ -12,6 +12,7 @@ from pydantic import Field, ValidationError
 from wire.catalogue import PROP_FLAG, REPORTED, SMART_TYPES, catalogue
 from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
+from wire.outline import inside
 
 
 class SiteError(ValueError):
@@ -178,7 +179,14 @@ def parse_site(data: dict[str, Any], where: str) -> Site:
         site = Site.model_validate(_tuples(_on_its_clock(data)))
     except ValidationError as error:
         raise SiteError(f"{where}: {describe(error, Site)}") from None
-    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site), *_no_owner(site), *_vain_faults(site)]
+    faults = [
+        *_repeated_ids(site),
+        *_unknown_rooms(site),
+        *_lost_robots(site),
+        *_bad_ports(site),
+        *_no_owner(site),
+        *_vain_faults(site),
+    ]
     if faults:
         raise SiteError(f"{where}: {'; '.join(faults)}")
     return site
@@ -214,6 +222,13 @@ def _unknown_rooms(site: Site) -> Iterator[str]:
     for place, room in named:
         if room not in known:
             yield f"{place}: there is no room {room}; the rooms are {', '.join(sorted(known))}"
+
+
+def _lost_robots(site: Site) -> Iterator[str]:
+    for i, robot in enumerate(site.robot):
+        if not any(inside(robot.start_m, room.polygon_m) for room in site.room):
+            x_m, y_m = robot.start_m
+            yield f"robot.{i}.start_m: ({x_m:g}, {y_m:g}) m is in no room; give metres east and north inside of one"
 
 
 def _bad_ports(site: Site) -> Iterator[str]:

@@ -170,7 +170,7 @@ class Drawing:
                 show_labels=False,
             ),
         )
-        self._rec.log("metrics/objects_believed", rr.Scalars(float(len(known))))
+        self._rec.log("metrics/counts/objects_believed", rr.Scalars(float(len(known))))
 
     def _show_doing(self, robot: str, doing: str) -> None:
         if self._doing.get(robot) != doing:
@@ -181,7 +181,7 @@ class Drawing:
         self._plan = state
         self.at(state.stamp_s)
         self._draw_plan(state)
-        self._rec.log("metrics/replans", rr.Scalars(float(state.replans)))
+        self._rec.log("metrics/counts/replans", rr.Scalars(float(state.replans)))
         labels = {n.id: self._node_label(n) for n in state.plan.nodes}
         running = {n.robot: labels[n.id] for n in state.nodes if n.status == "running" and n.robot is not None}
         for robot in sorted(self._robots):

@@ -21,6 +21,8 @@ _NODE_RGB = {
     "failed": (220, 60, 60),
     "cancelled": (110, 80, 120),
 }
+_DOING = {"holding": "gives way", "canceling": "stopping"}
+"""A robot's status in words; `holding` would be taken for something in its hand."""
 _ROBOT_RGB = ((255, 150, 30), (40, 160, 255), (210, 80, 220), (60, 200, 120), (240, 220, 60), (250, 90, 90))
 _BOX_RGB = (90, 230, 120)
 _PICTURE_EVERY_S = 0.5
@@ -151,7 +153,7 @@ class Drawing:
         for robot in delta.robots:
             self._robots.add(robot.id)
             if robot.status not in ("executing", "idle"):
-                self._show_doing(robot.id, robot.status)
+                self._show_doing(robot.id, _DOING.get(robot.status, robot.status))
         for area in delta.areas:
             if self._due(f"metrics/seen/{area.id}", delta.stamp_s, 1.0):
                 self._rec.log(f"metrics/seen/{area.id}", rr.Scalars(area.seen_fraction))

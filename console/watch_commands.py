@@ -64,6 +64,8 @@ def demo_seeds(
             row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
         except (SiteError, LaunchError, ClientError) as error:
             row = {"seed": seed, "success": False, "reason": str(error), "instruction": "", "path_m": 0.0, "sim_s": 0.0}
+        except OSError as error:
+            fail(f"{error.filename}: {error.strerror}", json_)
         rows.append(row)
         if not json_:
             verdict = "ok  " if row["success"] else "FAIL"

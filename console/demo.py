@@ -128,7 +128,9 @@ def _draw(ready: Ready, run: Run, path: Path) -> None:
     picture = FloorMap(ready.site)
     picture.draw_house()
     picture.draw_paths(run.trails)
+    picture.draw_cameras()
     picture.draw_objects(run.world)
+    picture.draw_legend()
     picture.draw_title(
         f"{run.task.instruction}: {'done' if run.judged.success else 'not done'}, {run.task.path_m:.0f} m"
     )

@@ -1,7 +1,7 @@
 """The floor plan as a picture: rooms, walls, camera cones, the robots' paths, the objects believed."""
 
 from collections.abc import Sequence
-from math import cos, degrees, radians, sin
+from math import cos, degrees, inf, radians, sin
 from pathlib import Path
 
 import cv2
@@ -9,7 +9,7 @@ import numpy as np
 
 from wire.messages.world import WorldState
 from wire.model import Vec2, Vec3
-from wire.site import Camera, Site
+from wire.site import Camera, Site, Wall
 
 _PX_PER_M = 70
 _MARGIN_M = 0.6
@@ -20,6 +20,7 @@ _ROOM_BGR = {
     "Bathroom": (232, 238, 214),
 }
 _ROBOT_BGR = ((30, 130, 240), (220, 120, 30), (190, 60, 190), (90, 170, 40), (40, 200, 220), (70, 70, 220))
+_VERIFIED_BGR, _BELIEVED_BGR, _CAMERA_BGR = (40, 140, 40), (150, 150, 60), (170, 90, 10)
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
@@ -34,6 +35,8 @@ class FloorMap:
         height = int((max(ys) - min(ys) + 2 * _MARGIN_M) * _PX_PER_M)
         self._image = np.full((height, width, 3), 255, np.uint8)
         self._site = site
+        self._taken: list[tuple[int, int, int, int]] = []
+        """Names that are written: left, top, right, bottom."""
 
     def _px(self, point_m: Vec2 | Vec3) -> tuple[int, int]:
         return (int((point_m[0] - self._west_m) * _PX_PER_M), int((self._north_m - point_m[1]) * _PX_PER_M))
@@ -57,14 +60,24 @@ class FloorMap:
         half = degrees(np.arctan2(camera.width_px / 2, camera.focal_px))
         x, y, _ = camera.position_enu_m
         fan = [(x, y)]
-        for turn_deg in np.linspace(-half, half, 13):
+        for turn_deg in np.linspace(-half, half, 61):
             angle = radians(camera.yaw_deg + float(turn_deg))
-            fan.append((x + reach_m * cos(angle), y + reach_m * sin(angle)))
+            free_m = self._free_m((x, y), (cos(angle), sin(angle)), reach_m)
+            fan.append((x + free_m * cos(angle), y + free_m * sin(angle)))
         glass = self._image.copy()
         cv2.fillPoly(glass, [self._polygon(fan)], (240, 190, 90))
         cv2.addWeighted(glass, 0.35, self._image, 0.65, 0, self._image)
-        cv2.circle(self._image, self._px((x, y)), 7, (170, 90, 10), -1, cv2.LINE_AA)
-        self._text(camera.id, (x + 0.12, y + 0.12), (170, 90, 10), 0.45)
+
+    def _free_m(self, start_m: Vec2, towards: Vec2, reach_m: float) -> float:
+        """Metres that are seen from a point in a direction, at most to the first wall."""
+        return min((reach_m, *(wall_m(start_m, towards, wall) for wall in self._site.wall)))
+
+    def draw_cameras(self) -> None:
+        """The cameras themselves, over walls and paths."""
+        for camera in self._site.camera:
+            x, y, _ = camera.position_enu_m
+            cv2.circle(self._image, self._px((x, y)), 7, _CAMERA_BGR, -1, cv2.LINE_AA)
+            self._label(camera.id, (x, y), 12, _CAMERA_BGR, 0.45)
 
     def draw_paths(self, trails: dict[str, list[Vec2]]) -> None:
         for index, (robot, trail) in enumerate(sorted(trails.items())):
@@ -74,19 +87,73 @@ class FloorMap:
             cv2.polylines(self._image, [self._polygon(trail)], False, colour, 3, cv2.LINE_AA)
             cv2.circle(self._image, self._px(trail[0]), 6, colour, 2, cv2.LINE_AA)
             cv2.circle(self._image, self._px(trail[-1]), 11, colour, -1, cv2.LINE_AA)
-            self._text(robot, (trail[-1][0] + 0.2, trail[-1][1] + 0.2), colour, 0.55)
+            self._label(robot, trail[-1], 16, colour, 0.55)
 
     def draw_objects(self, world: WorldState) -> None:
+        """First all dots, then their names where there is room."""
         for obj in world.objects:
-            colour = (40, 140, 40) if obj.verified else (150, 150, 60)
+            colour = _VERIFIED_BGR if obj.verified else _BELIEVED_BGR
             cv2.circle(self._image, self._px(obj.position_enu_m), 4, colour, -1, cv2.LINE_AA)
-            self._text(obj.type, (obj.position_enu_m[0] + 0.07, obj.position_enu_m[1] - 0.04), (60, 60, 60), 0.34)
+        for obj in world.objects:
+            self._label(obj.type, obj.position_enu_m, 7, (60, 60, 60), 0.34)
 
     def draw_title(self, text: str) -> None:
-        self._text(text, (self._west_m + 0.1, self._north_m - 0.32), (40, 40, 40), 0.6)
+        self._write(text, (8, 24), (40, 40, 40), 0.6)
+
+    def draw_legend(self) -> None:
+        """What the marks mean, along the lower edge."""
+        y, x = self._image.shape[0] - 12, 12
+        for text, colour, filled in (
+            ("seen by a robot from close by", _VERIFIED_BGR, True),
+            ("believed, not looked at closely", _BELIEVED_BGR, True),
+            ("camera, and what it watches", _CAMERA_BGR, True),
+            ("where a robot began", (60, 60, 60), False),
+            ("where it is", (60, 60, 60), True),
+        ):
+            cv2.circle(self._image, (x, y - 4), 5, colour, -1 if filled else 2, cv2.LINE_AA)
+            self._write(text, (x + 10, y), (60, 60, 60), 0.38)
+            x += 26 + cv2.getTextSize(text, _FONT, 0.38, 1)[0][0]
+
+    def _label(self, text: str, at_m: Vec2 | Vec3, clear_px: int, colour: tuple[int, int, int], size: float) -> None:
+        """A name beside a point: right, left, above or below of it, wherever it covers no other name."""
+        (wide, high), _ = cv2.getTextSize(text, _FONT, size, 1)
+        x, y = self._px(at_m)
+        corners = (
+            (x + clear_px, y + high // 2),
+            (x - clear_px - wide, y + high // 2),
+            (x - wide // 2, y - clear_px),
+            (x - wide // 2, y + clear_px + high),
+        )
+        free = [(a, b) for a, b in corners if self._is_free(a, b, wide, high)]
+        left, base = free[0] if free else corners[0]
+        left = min(max(left, 2), self._image.shape[1] - wide - 2)
+        self._taken.append((left, base - high, left + wide, base))
+        self._write(text, (left, base), colour, size)
+
+    def _is_free(self, left: int, base: int, wide: int, high: int) -> bool:
+        """Whether a name there lies in the picture and on no other name."""
+        right, top = left + wide, base - high
+        inside = left >= 0 and top >= 0 and right <= self._image.shape[1] and base <= self._image.shape[0]
+        return inside and all(right < a or left > c or base < b or top > d for a, b, c, d in self._taken)
 
     def _text(self, text: str, at_m: Vec2, colour: tuple[int, int, int], size: float) -> None:
-        cv2.putText(self._image, text, self._px(at_m), _FONT, size, colour, 1, cv2.LINE_AA)
+        self._write(text, self._px(at_m), colour, size)
+
+    def _write(self, text: str, at_px: tuple[int, int], colour: tuple[int, int, int], size: float) -> None:
+        cv2.putText(self._image, text, at_px, _FONT, size, colour, 1, cv2.LINE_AA)
 
     def save(self, path: Path) -> None:
         cv2.imwrite(str(path), self._image)
+
+
+def wall_m(start_m: Vec2, towards: Vec2, wall: Wall) -> float:
+    """Metres from a point in a direction (a unit vector) to a wall; infinite where it is not met."""
+    (x, y), (dx, dy) = start_m, towards
+    (x1, y1), (x2, y2) = wall.start_m, wall.end_m
+    wx, wy = x2 - x1, y2 - y1
+    across = dx * wy - dy * wx
+    if abs(across) < 1e-9:
+        return inf
+    along_m = ((x1 - x) * wy - (y1 - y) * wx) / across
+    share = ((x1 - x) * dy - (y1 - y) * dx) / across
+    return along_m if along_m > 0.0 and 0.0 <= share <= 1.0 else inf

@@ -57,10 +57,13 @@ def why(thing: Annotated[str, typer.Argument(help="an object: words or its id")]
 
 
 def why_text(reply: WhyReply) -> str:
-    """Each thing's sentence, and under it every source's claim; the text of the answer when there is no thing."""
+    """Each thing's sentence, and under it every source's claim; how many were left out; the text of the answer
+    when there is no thing."""
     lines: list[str] = []
     for entry in reply.entries:
         lines += [entry.text, *(_claim_text(claim, reply.now_s) for claim in entry.claims)]
+    if reply.more:
+        lines.append(f'and {reply.more} more; an id or a room narrows it down: `justw why "mug in the kitchen"`')
     return "\n".join(lines) or reply.text
 
 

@@ -21,6 +21,8 @@ def run_task(client: Client, instruction: str, limit_s: float, quiet: bool) -> T
     client.listen("task_state", task)
     state = client.ask("task", request, TaskState)
     shown: list[str] = []
+    if not quiet:
+        terminal.print(f"{task} (Ctrl-C or `justw cancel {task}` ends it)", markup=False)
     try:
         for update in client.messages(TaskState, limit_s, first=state, poll=_poll(client, task)):
             state = update
@@ -67,6 +69,9 @@ def task_text(state: TaskState) -> str:
         named = not state.refusal.part or f"'{state.refusal.part}'" in state.refusal.reason
         part = "" if named else f" ('{state.refusal.part}')"
         return f"not done: {state.refusal.reason}{part}"
+    if state.status in RUNNING:
+        goes_on = f"{state.task} goes on; `justw cancel {state.task}` ends it"
+        return f"{state.status}: {state.reason or state.instruction}\n{goes_on}"
     goals = "\n".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}" for g in state.goals)
     return (
         f"{state.status}: {state.reason or state.instruction}\n{goals}\n"

@@ -2,13 +2,18 @@
 
 import json
 import os
-import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 
-RERUN = str(Path(sys.executable).with_name("rerun"))
+
+def rerun_program() -> str:
+    """The viewer itself. The script of its name only starts it, and leaves it behind when it is ended."""
+    package = find_spec("rerun_cli")
+    folders = list(package.submodule_search_locations or ()) if package is not None else []
+    return str(Path(folders[0]) / "rerun") if folders else "rerun"
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from console.demo import demonstrate, summary_text
 from console.mesh_commands import Json
 from console.output import WordsError, emit, fail, terminal
 from console.places import current_mesh, free_port
-from console.viewer import RERUN, quiet_environment
+from console.viewer import quiet_environment, rerun_program
 from deploy.launch import LaunchError
 from wire.site import Site, SiteError, load_site
 
@@ -64,6 +64,8 @@ def demo_seeds(
             row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
         except (SiteError, LaunchError, ClientError) as error:
             row = {"seed": seed, "success": False, "reason": str(error), "instruction": "", "path_m": 0.0, "sim_s": 0.0}
+        except OSError as error:
+            fail(f"{error.filename}: {error.strerror}", json_)
         rows.append(row)
         if not json_:
             verdict = "ok  " if row["success"] else "FAIL"
@@ -114,12 +116,12 @@ def view(
         )
     with quiet_environment() as environment:
         if native:
-            raise typer.Exit(subprocess.call([RERUN, url], env=environment))
+            raise typer.Exit(subprocess.call([rerun_program(), url], env=environment))
         port = free_port(site.view.web_port)
         page = f"http://127.0.0.1:{port}/?url={quote(url, safe='')}"
         emit({"ok": True, "page": page, "url": url}, f"open {page}\n(Ctrl-C ends the viewer, the mesh stays up)", json_)
         sys.stdout.flush()
-        command = [RERUN, "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port), url]
+        command = [rerun_program(), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port), url]
         try:
             raise typer.Exit(subprocess.call(command, env=environment))
         except KeyboardInterrupt:
@@ -164,7 +166,7 @@ def _record(file: Path, url: str) -> float:
     began = time.monotonic()
     with quiet_environment() as environment:
         process = subprocess.Popen(
-            [RERUN, url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"],
+            [rerun_program(), url, "--save", str(raw), "--bind", "127.0.0.1", "--port", "auto"],
             env=environment,
             stdout=subprocess.DEVNULL,
         )
@@ -178,7 +180,7 @@ def _record(file: Path, url: str) -> float:
         if not raw.exists():
             raise RecordError(f"nothing was recorded: does the mesh run? (rerun ended with {code})")
         # A stream that is cut has no footer; this writes it.
-        whole = [RERUN, "rrd", "optimize", str(raw), "-o", str(file)]
+        whole = [rerun_program(), "rrd", "optimize", str(raw), "-o", str(file)]
         if subprocess.run(whole, check=False, capture_output=True, env=environment).returncode != 0:
             raise RecordError(f"{file} cannot be written; what was recorded lies in {raw}")
     raw.unlink()

@@ -17,6 +17,7 @@ from typing import Any
 
 from supervisor.xmlrpc import SupervisorTransport
 
+from deploy.modules import missing_modules
 from deploy.ports import taken_ports
 from deploy.supervisord import Places, render
 from wire.access import write_credentials
@@ -74,8 +75,8 @@ class Mesh:
         """Start every `autostart` process of the site whose host is this one."""
         if self.is_up():
             raise LaunchError(f"a mesh already runs from {self.run_dir}; `justw down` stops it")
-        if taken := taken_ports(site):
-            raise LaunchError(taken)
+        if fault := missing_modules(site) or taken_ports(site):
+            raise LaunchError(fault)
         self.log_dir.mkdir(parents=True, exist_ok=True)
         self._socket_dir.mkdir(mode=0o700, exist_ok=True)
         self._socket.unlink(missing_ok=True)

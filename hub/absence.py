@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from math import hypot
 
-from hub.floor import inside
 from hub.fusion import Fusion, Source
 from hub.records import Sight, Thing
 from wire.messages.observation import Absence, ObservationBatch, View
+from wire.outline import inside
 
 _GAP_S = 0.4
 """Looks closer together than this are one look."""

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import floor, hypot
 
 from wire.model import Vec2
+from wire.outline import inside
 from wire.site import Site
 
 _CACHE_M = 0.1
@@ -57,18 +58,6 @@ class FloorPlan:
                     seen.add(room)
                     todo.append(room)
         return seen
-
-
-def inside(point_m: Vec2, polygon_m: tuple[Vec2, ...]) -> bool:
-    """Whether a point lies in a polygon (even-odd rule)."""
-    x, y = point_m
-    result = False
-    x1, y1 = polygon_m[-1]
-    for x2, y2 in polygon_m:
-        if (y1 > y) != (y2 > y) and x < (x2 - x1) * (y - y1) / (y2 - y1) + x1:
-            result = not result
-        x1, y1 = x2, y2
-    return result
 
 
 def edge_distance_m(point_m: Vec2, polygon_m: tuple[Vec2, ...]) -> float:

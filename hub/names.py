@@ -3,11 +3,12 @@
 from collections.abc import Collection, Mapping
 from difflib import get_close_matches
 
-from hub.floor import FloorPlan, edge_distance_m, inside
+from hub.floor import FloorPlan, edge_distance_m
 from wire.catalogue import catalogue
 from wire.messages.plan import Plan, PlanNode
 from wire.messages.world import ObjectState
 from wire.model import Vec2
+from wire.outline import inside
 
 _IN_A_WALL_M = 0.3
 _MOST_NAMED = 6

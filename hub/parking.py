@@ -5,9 +5,10 @@ from itertools import pairwise
 from math import cos, dist, floor, inf, pi, sin
 from typing import Protocol
 
-from hub.floor import FloorPlan, edge_distance_m, inside
+from hub.floor import FloorPlan, edge_distance_m
 from hub.ways import path_to_path_m, point_to_path_m
 from wire.model import Vec2
+from wire.outline import inside
 
 _RINGS_M = (0.7, 1.0, 1.4, 1.9, 2.5, 3.2, 4.0)
 _BEARINGS = 20

@@ -55,8 +55,8 @@ class Task:
         return self.status in ENDED
 
     def say(self, now_s: float, text: str) -> None:
-        """A line for people."""
-        self.log.append(f"{now_s:.1f} s: {text}"[:300])
+        """A line for people, with the time since the task was given."""
+        self.log.append(f"{max(now_s - self.started_s, 0.0):.1f} s: {text}"[:300])
         self.unsaid.append(text)
         self.changed_s = now_s
 

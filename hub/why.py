@@ -26,16 +26,17 @@ def why(world: World, words: str, now_s: float) -> WhyReply:
         for t in things[:_MOST]
     )
     text = "\n".join(entry.text for entry in entries) if entries else _nothing(world, words)
-    return WhyReply(now_s=now_s, entries=entries, text=text[:2000])
+    return WhyReply(now_s=now_s, entries=entries, more=max(len(things) - _MOST, 0), text=text[:2000])
 
 
 def find(world: World, words: str) -> list[Thing]:
-    """Things meant by an id, or by a type and perhaps a room."""
+    """Things meant by an id, by a type and perhaps a room, or all that are in a room."""
     exact = world.things.get(words.strip().lower())
     if exact is not None:
         return [exact]
     types, rooms = _meant(world, words)
-    found = [t for t in _shown(world) if t.type in types and (not rooms or t.room in rooms)]
+    whole_room = bool(rooms) and words.strip().lower().removeprefix("the ") in _room_names(world)
+    found = [t for t in _shown(world) if (whole_room or t.type in types) and (not rooms or t.room in rooms)]
     return sorted(found, key=lambda t: t.id)
 
 
@@ -84,6 +85,10 @@ def _nothing(world: World, words: str) -> str:
     """Why nothing was found: not seen, not there, or not spelled so."""
     seen = sorted({spaced(t.type) for t in _shown(world)})
     known = ", ".join(seen) or "no objects yet"
+    robot = world.fleet.robots.get(words.strip().lower())
+    if robot is not None:
+        x_m, y_m = robot.xy
+        return f"{robot.id} is a robot, at ({x_m:.2f}, {y_m:.2f}) m; `why` tells of objects, `justw view` shows robots"
     types, rooms = _meant(world, words)
     if types:
         sought = " or ".join(sorted(spaced(type) for type in types))
@@ -133,13 +138,22 @@ def claims(world: World, thing: Thing, now_s: float) -> list[Claim]:
 
 
 def _fact_claims(name: str, fact: Fact) -> list[Claim]:
-    return [
-        Claim(
-            source=source,
-            stamp_s=said.stamp_s,
-            confidence=max(said.probability, 1.0 - said.probability),
-            text=f"{'made' if said.handled else 'saw'} {name} {'true' if said.probability > 0.5 else 'false'}",
-            contradicts=fact.value is not None and (said.probability > 0.5) != fact.value,
+    """Who had said otherwise before a robot changed it does not contradict."""
+    made_s = max(
+        (c.stamp_s for c in fact.claims.values() if c.handled and (c.probability > 0.5) == fact.value), default=0.0
+    )
+    said_so = []
+    for source, said in fact.claims.items():
+        value = said.probability > 0.5
+        differs = fact.value is not None and value != fact.value
+        said_so.append(
+            Claim(
+                source=source,
+                stamp_s=said.stamp_s,
+                confidence=max(said.probability, 1.0 - said.probability),
+                text=f"{'made' if said.handled else 'saw'} {name} {'true' if value else 'false'}"
+                + (", before it was changed" if differs and said.stamp_s < made_s else ""),
+                contradicts=differs and said.stamp_s >= made_s,
+            )
         )
-        for source, said in fact.claims.items()
-    ]
+    return said_so

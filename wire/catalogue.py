@@ -53,11 +53,33 @@ def catalogue() -> dict[str, ObjectType]:
     }
 
 
+@lru_cache(maxsize=256)
+def type_row(name: str) -> ObjectType:
+    """The row of a type; one that the catalogue does not know stands there and can be looked at, nothing more."""
+    return catalogue().get(name) or _UNKNOWN.model_copy(update={"name": name})
+
+
 @lru_cache(maxsize=1)
 def modelled_types() -> tuple[str, ...]:
     """Types that can appear in pictures, in the order of the detector's classes."""
     return tuple(sorted(name for name, row in catalogue().items() if row.modelled))
 
+
+_UNKNOWN = ObjectType(
+    name="Unknown",
+    kind="static",
+    flags=(),
+    size_m=(0.3, 0.3, 0.3),
+    size_p10_m=(0.1, 0.1, 0.1),
+    size_p90_m=(0.5, 0.5, 0.5),
+    receptacle_mode=None,
+    must_open=False,
+    room_weights={},
+    placement=(),
+    allowed_in=(),
+    holds={},
+    modelled=False,
+)
 
 PROPS: tuple[str, ...] = ("isOpen", "isToggled", "isDirty", "isSliced")
 """The dynamic properties of equation 4 that cameras report, in the order of the detector's outputs."""

@@ -28,7 +28,15 @@ def _fault(kind: str, place: tuple[int | str, ...], text: str, model: type[Messa
         return f"{path}: is missing"
     if kind == "extra_forbidden":
         return f"{path}: {_unknown(str(place[-1]), _model_at(place[:-1], model))}"
-    return f"{path}: {text[0].lower()}{text[1:]}"
+    told = _wanted(place, model) if kind == "string_pattern_mismatch" else ""
+    return f"{path}: {told} is expected" if told else f"{path}: {text[0].lower()}{text[1:]}"
+
+
+def _wanted(place: tuple[int | str, ...], model: type[Message]) -> str:
+    """What a field of this shape is called in words; nothing where nobody has said so."""
+    at = _model_at(place[:-1], model)
+    field = at.model_fields.get(str(place[-1])) if at is not None else None
+    return (field.description or "") if field is not None else ""
 
 
 def _unknown(name: str, model: type[Message] | None) -> str:

@@ -4,10 +4,18 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
-Id = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,31}$")]
+Id = Annotated[
+    str,
+    StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,31}$"),
+    Field(description="an id: at most 32 lower-case letters, digits and hyphens"),
+]
 """An identifier that is also one chunk of a key expression: no wildcard, no slash."""
 
-Word = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
+Word = Annotated[
+    str,
+    StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$"),
+    Field(description="one word: at most 32 letters, digits and underscores, a letter first"),
+]
 """An entry of a closed vocabulary: an object type, a property, an action."""
 
 Text = Annotated[str, StringConstraints(max_length=2000)]

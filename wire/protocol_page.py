@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 
 from wire.codec import max_bytes
 from wire.keys import PRESENCE_PATH, ROLES, SERVICES, TOPICS, Role
+from wire.link import MAX_MESSAGE_BYTES
 from wire.messages.plan import KNOWN_ACTIONS
 from wire.model import Message
 
@@ -19,9 +20,10 @@ INTRODUCTION = f"""# The protocol
 Generated from `wire/keys.py` and `wire/messages/`; `python -m wire.protocol_page docs/protocol.md` writes it anew.
 
 Every key begins with the site's realm (`r2x` unless the site file says otherwise). A payload is a msgpack map of the
-message's fields; an unknown field, a wrong type, a number that is not finite or too many bytes are refused. Beside each
-payload travels an attachment: the tick in which it was sent (8 bytes, little-endian, -1 for a sender outside lockstep),
-the sender's own count (8 bytes) and the sender's id. `{{id}}` is one chunk of lower-case letters, digits and hyphens.
+message's fields; an unknown field, a wrong type, a number that is not finite or too many bytes are refused, and the
+receiver's log says so. What is larger than {MAX_MESSAGE_BYTES} bytes goes no further than the router, which keeps no
+word of it. Beside each payload travels an attachment: the tick in which it was sent (8 bytes, little-endian, -1 for a sender outside
+lockstep), the sender's own count (8 bytes) and the sender's id. `{{id}}` is one chunk of lower-case letters, digits and hyphens.
 
 Delivery `every` blocks the sender rather than lose a message; of `latest` a slow reader sees the newest only. A process
 that is there holds the liveliness token `{PRESENCE_PATH}`.

@@ -13,6 +13,7 @@ from wire.airlink import link_fault
 from wire.catalogue import PROP_FLAG, REPORTED, SMART_TYPES, catalogue
 from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
+from wire.outline import inside
 
 
 class SiteError(ValueError):
@@ -86,14 +87,18 @@ class Process(Message):
 
     id: Id
     role: Literal["router", "hub", "planner", "cctv", "robot", "sim", "view"]
-    module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$")
+    module: str = Field(pattern=r"^[a-z_][a-z0-9_.]*$", description="a Python module, such as devices.cctv")
     host: str = "localhost"
     args: tuple[Annotated[str, Field(pattern=r"^[^\x00-\x1f]*$")], ...] = ()
     autostart: bool = True
 
 
 class Router(Message):
-    endpoint: str = Field(default="tcp/127.0.0.1:7447", pattern=r"^tcp/[^/]+:\d+$")
+    endpoint: str = Field(
+        default="tcp/127.0.0.1:7447",
+        pattern=r"^tcp/[^/]+:\d+$",
+        description="tcp/HOST:PORT, such as tcp/127.0.0.1:7447",
+    )
     secured: bool = True
 
 
@@ -140,7 +145,7 @@ class View(Message):
 
     grpc_port: int = Field(default=9876, gt=0, lt=65536)
     web_port: int = Field(default=9090, gt=0, lt=65536)
-    memory_limit: str = Field(default="64MiB", pattern=r"^\d+(KiB|MiB|GiB)$")
+    memory_limit: str = Field(default="64MiB", pattern=r"^\d+(KiB|MiB|GiB)$", description="a size, such as 64MiB")
     save: str = ""
 
 
@@ -150,7 +155,10 @@ class Hub(Message):
 
 
 class Site(Message):
-    name: str = Field(pattern=r"^[^./;\"\x00-\x1f][^/;\"\x00-\x1f]{0,59}$")
+    name: str = Field(
+        pattern=r"^[^./;\"\x00-\x1f][^/;\"\x00-\x1f]{0,59}$",
+        description="a name of at most 60 characters, without slashes, semicolons and quotes, no dot in front",
+    )
     """Also the name of the folder in which its mesh keeps its things: no slash, no dot in front."""
     realm: Id = "r2x"
     router: Router = Router()
@@ -186,8 +194,15 @@ def parse_site(data: dict[str, Any], where: str) -> Site:
         site = Site.model_validate(_tuples(_on_its_clock(data)))
     except ValidationError as error:
         raise SiteError(f"{where}: {describe(error, Site)}") from None
-    faults = [*_repeated_ids(site), *_unknown_rooms(site), *_bad_ports(site), *_no_owner(site)]
-    faults += [*_bad_links(site), *_vain_faults(site)]
+    faults = [
+        *_repeated_ids(site),
+        *_unknown_rooms(site),
+        *_lost_robots(site),
+        *_bad_ports(site),
+        *_no_owner(site),
+        *_bad_links(site),
+        *_vain_faults(site),
+    ]
     if faults:
         raise SiteError(f"{where}: {'; '.join(faults)}")
     return site
@@ -223,6 +238,13 @@ def _unknown_rooms(site: Site) -> Iterator[str]:
     for place, room in named:
         if room not in known:
             yield f"{place}: there is no room {room}; the rooms are {', '.join(sorted(known))}"
+
+
+def _lost_robots(site: Site) -> Iterator[str]:
+    for i, robot in enumerate(site.robot):
+        if not any(inside(robot.start_m, room.polygon_m) for room in site.room):
+            x_m, y_m = robot.start_m
+            yield f"robot.{i}.start_m: ({x_m:g}, {y_m:g}) m is in no room; give metres east and north inside of one"
 
 
 def _bad_ports(site: Site) -> Iterator[str]:

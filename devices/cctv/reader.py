@@ -28,7 +28,8 @@ class SourceReader:
 
     def stop(self) -> None:
         self._stopping.set()
-        self._thread.join(timeout=2.0)
+        if self._thread.ident is not None:
+            self._thread.join(timeout=2.0)
 
     def take(self) -> Image | None:
         """The newest picture not yet taken."""

@@ -5,6 +5,7 @@ pictures, or a pattern of picture files (`shots/*.png`).
 """
 
 import glob
+import re
 from pathlib import Path
 from typing import Protocol
 
@@ -17,6 +18,9 @@ from wire.site import Camera
 PICTURE_SUFFIXES = (".jpg", ".jpeg", ".png", ".bmp", ".webp")
 OPEN_TIMEOUT_MS, READ_TIMEOUT_MS = 5000, 5000
 MAX_ASPECT_ERROR = 0.02
+_LOGIN = re.compile(r"(?<=://).*@")
+_SECRET = re.compile(r"((?:pass|pwd|token|key|auth)[a-z]*=)[^&_/]*", re.IGNORECASE)
+"""Some cameras take the password in the path or the query: `user=admin_password=secret_channel=1`."""
 
 
 class SourceLost(Exception):
@@ -42,6 +46,13 @@ class FrameSource(Protocol):
 
     def close(self) -> None:
         """Let the camera or file go."""
+
+
+def shown(source: str) -> str:
+    """A source as it may be logged: an address without its name and password."""
+    if "://" not in source:
+        return source
+    return _SECRET.sub(r"\1***", _LOGIN.sub("***@", source))
 
 
 def open_source(camera: Camera) -> FrameSource:
@@ -80,7 +91,7 @@ class PictureFiles:
     def read(self) -> Image:
         path = next(self._paths, None)
         if path is None:
-            raise SourceEnded(f"camera {self._camera.id}: the last picture of {self._camera.source} was shown")
+            raise SourceEnded(f"camera {self._camera.id}: the last picture of {shown(self._camera.source)} was shown")
         bgr = cv2.imread(str(path), cv2.IMREAD_COLOR)
         if bgr is None:
             raise SourceWrong(f"camera {self._camera.id}: {path} is not a picture; remove it from the folder")
@@ -112,7 +123,7 @@ class CaptureSource:
         self.interval_s = 0.0 if self._live else 1.0 / (rate_hz if 0.1 <= rate_hz <= 240.0 else camera.picture_hz)
 
     def _unopened(self) -> Exception:
-        where = f"camera {self._camera.id}: {self._camera.source}"
+        where = f"camera {self._camera.id}: {shown(self._camera.source)}"
         if not self._live:
             return SourceWrong(f"{where} is not a video that OpenCV reads; convert it, for example to H.264 in MP4")
         return SourceLost(f"{where} does not answer; check its address, its power, and that nobody else holds it")
@@ -122,8 +133,8 @@ class CaptureSource:
         if good:
             return fit(self._camera, np.asarray(bgr, dtype=np.uint8))
         if self._live:
-            raise SourceLost(f"camera {self._camera.id}: {self._camera.source} stopped sending pictures")
-        raise SourceEnded(f"camera {self._camera.id}: the video {self._camera.source} is over")
+            raise SourceLost(f"camera {self._camera.id}: {shown(self._camera.source)} stopped sending pictures")
+        raise SourceEnded(f"camera {self._camera.id}: the video {shown(self._camera.source)} is over")
 
     def close(self) -> None:
         self._capture.release()

@@ -7,7 +7,7 @@ import numpy as np
 from devices.vision import layout
 from devices.vision.lens import Floats
 from devices.vision.projection import Sighting
-from wire.catalogue import PROP_FLAG, catalogue
+from wire.catalogue import PROP_FLAG, type_row
 from wire.messages.observation import Covariance, ObjectObservation
 from wire.model import Vec3
 
@@ -97,7 +97,7 @@ class Track:
 
     def props(self) -> dict[str, float]:
         """Probability of every property that a thing of this type has and that has been judged."""
-        row = catalogue()[self.type]
+        row = type_row(self.type)
         return {
             prop: float(1.0 / (1.0 + np.exp(-log_odds)))
             for prop, log_odds in sorted(self.prop_log_odds.items())

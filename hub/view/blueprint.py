@@ -21,6 +21,13 @@ def blueprint(
         ),
     )
     pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *robots)]
+    # each with a scale of its own: fractions beside metres would be a flat line
+    metrics = rrb.Tabs(
+        rrb.TimeSeriesView(origin="metrics/seen", name="Seen of each room"),
+        rrb.TimeSeriesView(origin="metrics/travelled_m", name="Metres walked"),
+        rrb.TimeSeriesView(origin="metrics/counts", name="Objects, replans"),
+        name="Metrics",
+    )
     return rrb.Blueprint(
         rrb.Horizontal(
             rrb.Vertical(world, rrb.StateTimelineView(origin="tasks", name="What each robot does"), row_shares=[4, 1]),
@@ -28,7 +35,7 @@ def blueprint(
             rrb.Vertical(
                 rrb.GraphView(origin="plan", name="Plan"),
                 rrb.TextDocumentView(origin="task", name="Task"),
-                rrb.TimeSeriesView(origin="metrics", name="Metrics"),
+                metrics,
                 rrb.TextLogView(origin="log", name="Events"),
             ),
             column_shares=[5, 4, 3],

@@ -21,6 +21,8 @@ _NODE_RGB = {
     "failed": (220, 60, 60),
     "cancelled": (110, 80, 120),
 }
+_DOING = {"holding": "gives way", "canceling": "stopping"}
+"""A robot's status in words; `holding` would be taken for something in its hand."""
 _ROBOT_RGB = ((255, 150, 30), (40, 160, 255), (210, 80, 220), (60, 200, 120), (240, 220, 60), (250, 90, 90))
 _BOX_RGB = (90, 230, 120)
 _PICTURE_EVERY_S = 0.5
@@ -151,7 +153,7 @@ class Drawing:
         for robot in delta.robots:
             self._robots.add(robot.id)
             if robot.status not in ("executing", "idle"):
-                self._show_doing(robot.id, robot.status)
+                self._show_doing(robot.id, _DOING.get(robot.status, robot.status))
         for area in delta.areas:
             if self._due(f"metrics/seen/{area.id}", delta.stamp_s, 1.0):
                 self._rec.log(f"metrics/seen/{area.id}", rr.Scalars(area.seen_fraction))
@@ -170,7 +172,7 @@ class Drawing:
                 show_labels=False,
             ),
         )
-        self._rec.log("metrics/objects_believed", rr.Scalars(float(len(known))))
+        self._rec.log("metrics/counts/objects_believed", rr.Scalars(float(len(known))))
 
     def _show_doing(self, robot: str, doing: str) -> None:
         if self._doing.get(robot) != doing:
@@ -181,7 +183,7 @@ class Drawing:
         self._plan = state
         self.at(state.stamp_s)
         self._draw_plan(state)
-        self._rec.log("metrics/replans", rr.Scalars(float(state.replans)))
+        self._rec.log("metrics/counts/replans", rr.Scalars(float(state.replans)))
         labels = {n.id: self._node_label(n) for n in state.plan.nodes}
         running = {n.robot: labels[n.id] for n in state.nodes if n.status == "running" and n.robot is not None}
         for robot in sorted(self._robots):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from planners.scripted.syntax import Group, Place, Rooms, State, Thing, Unclear
 from planners.scripted.vocabulary import tables
-from wire.catalogue import catalogue, modelled_types
+from wire.catalogue import modelled_types, type_row
 from wire.messages.goal import Selector
 from wire.messages.world import ObjectState, WorldState
 from wire.names import called
@@ -154,7 +154,7 @@ class Resolver:
     def _affords(self, type_name: str, predicate: str) -> bool:
         if predicate in ("found", "visited", "touched"):
             return type_name in self._present or type_name in modelled_types()
-        return catalogue()[type_name].can(FLAG[predicate][0])
+        return type_row(type_name).can(FLAG[predicate][0])
 
     def check(self, type_name: str, predicate: str, part: str) -> None:
         """Refuse what cannot be done with things of a type."""

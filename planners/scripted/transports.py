@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from planners.scripted.exceptions import leave_out
 from planners.scripted.resolve import Resolver, named, one_of, share
 from planners.scripted.syntax import Act, Body, Group, Groups, Place, Rooms, Thing, Unclear
-from wire.catalogue import catalogue
+from wire.catalogue import type_row
 from wire.messages.goal import Selector
 from wire.names import called
 
@@ -156,7 +156,7 @@ def _could_hold(outer: Place, inner: Place, resolver: Resolver) -> bool:
     """Whether the second place may tell which of the first is meant ("in the bowl on the table")."""
     if not isinstance(outer.what, Thing) or not isinstance(inner.what, Thing):
         return False
-    return any(set(catalogue()[t].allowed_in) & set(outer.what.types) for t in inner.what.types)
+    return any(set(type_row(t).allowed_in) & set(outer.what.types) for t in inner.what.types)
 
 
 def destination(place: Place, of_place: Sequence[Place], resolver: Resolver) -> Selector:
@@ -197,9 +197,9 @@ def _check_fit(subject: Selector, to: Selector, text: str) -> None:
         return
     if subject.type == to.type and subject.id == to.id:
         raise Unclear(f"{named(subject.type)} cannot be put in or on itself", text)
-    item = sorted(catalogue()[subject.type].size_p10_m)[:2]
-    room = sorted(catalogue()[to.type].size_p90_m[:2])
-    if catalogue()[to.type].receptacle_mode != "on" and any(a > b for a, b in zip(item, room, strict=True)):
+    item = sorted(type_row(subject.type).size_p10_m)[:2]
+    room = sorted(type_row(to.type).size_p90_m[:2])
+    if type_row(to.type).receptacle_mode != "on" and any(a > b for a, b in zip(item, room, strict=True)):
         raise Unclear(f"{named(subject.type)} does not fit in {named(to.type)}", text)
 
 

@@ -7,7 +7,7 @@ from planners.tasks.bans import Bans
 from planners.tasks.failures import Failures
 from planners.tasks.memory import Notes
 from planners.tasks.travel import Travel
-from wire.catalogue import PROP_FLAG, catalogue
+from wire.catalogue import PROP_FLAG, type_row
 from wire.goals import object_satisfies, select
 from wire.messages.goal import Goal, Selector
 from wire.messages.world import AreaState, ObjectState, RobotState, WorldState
@@ -86,7 +86,7 @@ class Belief:
 
         A property that the type cannot have (a tomato that is open) tells that sources take it for different things.
         """
-        flags = catalogue()[obj.type].flags
+        flags = type_row(obj.type).flags
         odd = any(PROP_FLAG.get(name) not in flags for name in obj.props)
         return UNSURE_M * (1.0 - obj.confidence) + UNSEEN_M * (not obj.verified) + ODD_M * odd
 
@@ -111,7 +111,7 @@ class Belief:
 
     def shut(self, obj: ObjectState) -> bool:
         """It must be opened before a hand gets in."""
-        return catalogue()[obj.type].must_open and not self.is_open(obj)
+        return type_row(obj.type).must_open and not self.is_open(obj)
 
     def around(self, obj: ObjectState) -> Iterator[ObjectState]:
         """What it is in or on, from the inside out."""
@@ -124,7 +124,7 @@ class Belief:
 
     def closures(self, obj: ObjectState) -> list[ObjectState]:
         """Receptacles that must be open to get at it, the outermost first."""
-        return [holder for holder in self.around(obj) if catalogue()[holder.type].must_open][::-1]
+        return [holder for holder in self.around(obj) if type_row(holder.type).must_open][::-1]
 
     def nearest_m(self, point_m: Vec2) -> float:
         """Metres from the nearest robot."""

@@ -7,7 +7,7 @@ from planners.tasks.belief import Belief
 from planners.tasks.order import order_by_goals, order_by_things
 from planners.tasks.places import rank, suitable, unusable
 from planners.tasks.work import Impossible, Job, on
-from wire.catalogue import catalogue
+from wire.catalogue import type_row
 from wire.messages.goal import Goal
 from wire.messages.plan import Action
 from wire.messages.world import ObjectState
@@ -88,7 +88,7 @@ class Handling:
         knife = min(knives, key=lambda k: (self._belief.travel.metres(*self._pair(k, obj)), k.id))
         holder = self._belief.held_by(knife)
         home = self._belief.objects.get(knife.receptacle or "")
-        near = (o for o in self._belief.world.objects if catalogue()[o.type].receptacle_mode == "on")
+        near = (o for o in self._belief.world.objects if type_row(o.type).receptacle_mode == "on")
         places = [home] if home is not None else rank(obj, near, self._belief)[:1]
         if not places:
             raise Impossible("no place is known to put the knife back")
@@ -137,7 +137,7 @@ class Handling:
 
     def put_down(self, item: ObjectState, robot: str) -> None:
         """Free a hand of what no goal asks for."""
-        near = (o for o in self._belief.world.objects if catalogue()[o.type].receptacle_mode == "on")
+        near = (o for o in self._belief.world.objects if type_row(o.type).receptacle_mode == "on")
         places = rank(item, near, self._belief)
         if places:
             self.add(Job([on("put", places[0], item)], None, robot=robot, about=frozenset({item.id}), rank=MOVES))
@@ -152,7 +152,7 @@ class Handling:
         """A step of a job needs this receptacle, and what is around it, open."""
         for outer in self._belief.closures(holder):
             self._open_for(job, step, outer, goal)
-        if not catalogue()[holder.type].must_open:
+        if not type_row(holder.type).must_open:
             return
         self._uses.setdefault(holder.id, []).append(job)
         if self._belief.is_open(holder):

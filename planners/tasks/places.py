@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from planners.tasks.belief import Belief
-from wire.catalogue import catalogue
+from wire.catalogue import catalogue, type_row
 from wire.messages.goal import Goal, Selector
 from wire.messages.world import ObjectState
 
@@ -39,7 +39,7 @@ def unusable(item: ObjectState, holder: ObjectState, belief: Belief) -> str:
     """Why something cannot be put there; empty when it can."""
     if holder.id == item.id or any(h.id == item.id for h in belief.around(holder)):
         return f"{item.id} cannot be put into itself"
-    if not catalogue()[holder.type].can("receptacle"):
+    if not type_row(holder.type).can("receptacle"):
         return f"nothing can be put in or on {holder.id}"
     if belief.held_by(holder) is not None:
         return f"{holder.id} is in a robot's hand"
@@ -53,23 +53,23 @@ def unusable(item: ObjectState, holder: ObjectState, belief: Belief) -> str:
 
 
 def _cost_m(item: ObjectState, holder: ObjectState, belief: Belief) -> float:
-    row = catalogue()[holder.type]
+    row = type_row(holder.type)
     cost = belief.travel.metres(belief.point_m(item), belief.point_m(holder))
     cost += CROWD_M * belief.crowd(holder.id) / max(row.size_m[0] * row.size_m[1], SMALLEST_AREA_M2) * 0.3
     cost += CLOSED_M * belief.shut(holder)
-    cost += UNUSUAL_M * (holder.type not in catalogue()[item.type].allowed_in)
+    cost += UNUSUAL_M * (holder.type not in type_row(item.type).allowed_in)
     return cost + FAILED_M * belief.failures.count("put", holder.id)
 
 
 def _furniture(obj: ObjectState) -> bool:
-    row = catalogue()[obj.type]
+    row = type_row(obj.type)
     return row.kind != "pickup" and row.receptacle_mode is not None
 
 
 def fits(item: ObjectState, holder: ObjectState) -> bool:
     """The item is smaller than what should hold it, both ways round in the floor plane."""
-    small = sorted(catalogue()[item.type].size_p10_m[:2])
-    large = sorted(catalogue()[holder.type].size_m[:2])
+    small = sorted(type_row(item.type).size_p10_m[:2])
+    large = sorted(type_row(holder.type).size_m[:2])
     return all(a <= b for a, b in zip(small, large, strict=True))
 
 
@@ -77,5 +77,5 @@ def holder_types(item_type: str, wanted: Selector | None) -> tuple[str, ...]:
     """Types to look for when no receptacle is known."""
     if wanted is not None and wanted.type is not None:
         return (wanted.type,)
-    rows = (catalogue().get(name) for name in catalogue()[item_type].allowed_in)
+    rows = (catalogue().get(name) for name in type_row(item_type).allowed_in)
     return tuple(r.name for r in rows if r is not None and r.modelled and r.kind != "pickup" and not r.must_open)

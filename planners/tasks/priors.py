@@ -7,7 +7,7 @@ been seen: a look that would have shown the thing makes its being there less pro
 from collections.abc import Sequence
 
 from planners.tasks.belief import Belief
-from wire.catalogue import catalogue
+from wire.catalogue import type_row
 from wire.messages.world import AreaState, ObjectState
 
 CAMERA_RECALL = 0.6
@@ -22,10 +22,10 @@ SOME_CHANCE = 0.02
 
 def room_prior(type_name: str, area: AreaState, furniture: Sequence[ObjectState]) -> float:
     """Unnormalised probability that a thing of the type is in the room."""
-    row = catalogue()[type_name]
+    row = type_row(type_name)
     weights: dict[str, float] = {str(kind): weight for kind, weight in row.room_weights.items()}
     prior = weights.get(area.kind, 0.0) if weights else UNKNOWN_KIND
-    prior += sum(catalogue()[o.type].holds.get(type_name, 0.0) for o in furniture)
+    prior += sum(type_row(o.type).holds.get(type_name, 0.0) for o in furniture)
     return (prior + ANYWHERE) * _unseen(area)
 
 
@@ -49,7 +49,7 @@ def normalised(type_name: str, rooms: Sequence[AreaState], belief: Belief) -> di
 
 def inside_prior(type_name: str, holder: ObjectState) -> float:
     """Probability that a closed receptacle holds a thing of the type."""
-    row = catalogue()[holder.type]
+    row = type_row(holder.type)
     known = row.holds.get(type_name, 0.0)
-    usual = holder.type in catalogue()[type_name].allowed_in
+    usual = holder.type in type_row(type_name).allowed_in
     return max(known, SOME_CHANCE if usual else 0.0)

@@ -6,7 +6,7 @@ from planners.tasks.belief import Belief
 from planners.tasks.priors import inside_prior, normalised
 from planners.tasks.travel import centre_m
 from planners.tasks.work import Impossible, Job, Step, on
-from wire.catalogue import catalogue
+from wire.catalogue import type_row
 from wire.messages.world import AreaState, ObjectState
 from wire.model import Vec2
 from wire.site import Site
@@ -81,7 +81,7 @@ class Search:
         return [
             obj
             for obj in sorted(belief.world.objects, key=lambda o: o.id)
-            if catalogue()[obj.type].must_open
+            if type_row(obj.type).must_open
             and not belief.is_open(obj)
             and obj.id not in belief.notes.peeked
             and (want.rooms is None or obj.room in want.rooms)

@@ -2,13 +2,16 @@
 
 import socket
 import subprocess
+import time
 
-from console.viewer import RERUN, quiet_environment
+from console.places import free_port
+from console.viewer import quiet_environment, rerun_program
+from deploy.ports import is_free
 
 
 def _rerun(*words: str) -> subprocess.CompletedProcess[str]:
     with quiet_environment() as environment:
-        return subprocess.run([RERUN, *words], capture_output=True, text=True, env=environment, timeout=60)
+        return subprocess.run([rerun_program(), *words], capture_output=True, text=True, env=environment, timeout=60)
 
 
 def test_telemetry_is_off() -> None:
@@ -25,3 +28,18 @@ def test_only_errors_are_said() -> None:
     assert done.returncode != 0
     assert "Address already in use" in done.stderr
     assert "INFO" not in done.stdout + done.stderr
+
+
+def test_who_ends_the_viewer_leaves_nothing_behind() -> None:
+    """Only the process that was started is told to end, as `record` does."""
+    port = free_port()
+    words = [rerun_program(), "--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port)]
+    with quiet_environment() as environment:
+        process = subprocess.Popen([*words, "rerun+http://127.0.0.1:9/proxy"], env=environment)
+        deadline = time.monotonic() + 30.0
+        while is_free(port):
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        process.terminate()
+        process.wait(timeout=30.0)
+    assert is_free(port)

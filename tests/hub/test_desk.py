@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from hub.task import Task
 from tests.hub.home import Flat
 from tests.hub.test_episode import fetch
 from wire.messages.operator import ControlReply, ControlRequest, TaskQuery
@@ -99,3 +100,11 @@ def test_every_decision_is_a_line_in_the_log(tmp_path: Path, caplog: pytest.LogC
     assert all(line.startswith("t-1 at ") and "\n" not in line and len(line) < 300 for line in lines)
     assert len(lines) == sum(1 for _ in home.hub._journal.log())
     assert home.mesh.call("task_query", TaskQuery()).status == "done"
+
+
+def test_a_task_tells_the_time_since_it_was_given() -> None:
+    """On the wall's clock the time since 1970 would stand there."""
+    task = Task("t-1", "open the fridge", 1_795_809_936.2)
+    task.say(1_795_809_936.2, "asked: open the fridge")
+    task.say(1_795_809_941.1, "refused: no robot is there")
+    assert list(task.log) == ["0.0 s: asked: open the fridge", "4.9 s: refused: no robot is there"]

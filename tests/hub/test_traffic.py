@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hub.floor import FloorPlan, inside
+from hub.floor import FloorPlan
 from hub.parking import Parking
 from hub.traffic import Mover, Traffic
 from tests.hub.scenes import flat
 from tests.hub.toys import STEP_M, way
 from wire.model import Vec2
+from wire.outline import inside
 
 RADIUS_M = 0.38
 

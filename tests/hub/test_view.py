@@ -12,11 +12,13 @@ import pytest
 import rerun as rr
 
 from console.places import free_port
+from console.viewer import rerun_program
 from hub.view.core import open_recording
 from hub.view.drawing import Drawing
 from hub.view.house import draw_house
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
+from wire.messages.world import RobotState, WorldDelta
 from wire.site import Site, parse_site
 
 ROOT = Path(__file__).parents[2]
@@ -138,3 +140,18 @@ def seen_by_a_viewer(port: int, file: Path) -> str:
         os.killpg(viewer.pid, signal.SIGKILL)
         viewer.wait()
     raise AssertionError(f"the viewer was not told everything: {shown[-500:]}")
+
+
+def test_a_robot_that_lets_another_pass_is_not_said_to_hold_something(tmp_path: Path) -> None:
+    rec = open_recording(flat(save=str(tmp_path / "one.rrd")))
+    draw = Drawing(rec)
+    robot = RobotState(
+        id="dog-1", kind="quadruped", position_enu_m=(1.0, 1.0, 0.0), yaw_deg=0.0, status="holding", stamp_s=1.0
+    )
+    draw.world(WorldDelta(seq=1, stamp_s=1.0, robots=(robot,)))
+    rec.disconnect()
+    text = subprocess.run(
+        [rerun_program(), "rrd", "print", "-vvv", str(tmp_path / "one.rrd")], capture_output=True, text=True
+    ).stdout
+    assert "gives way" in text
+    assert "holding" not in text

@@ -80,3 +80,19 @@ def test_a_refusal_of_endless_words_is_still_a_message() -> None:
     reply = PLANNERS["scripted"](site()).make_plan(request)
     assert reply.refusal is not None
     assert reply.refusal.reason.startswith("I do not understand")
+
+
+@pytest.mark.parametrize("words", ["turn off every TV", "put the apple in the fridge", "find the screwdriver"])
+def test_a_thing_that_the_catalogue_does_not_know_stops_nobody(words: str) -> None:
+    """A detector of one's own may know more types than the catalogue."""
+    world = furnished(1, ("kitchen",)).world()
+    fridge = next(obj for obj in world.objects if obj.type == "Fridge")
+    strange = (
+        fridge.model_copy(update={"id": "obj-t", "type": "Trampoline"}),
+        fridge.model_copy(update={"id": "obj-u", "type": "Bell", "receptacle": "obj-t"}),
+        fridge.model_copy(update={"id": "obj-v", "type": "Apple", "receptacle": "obj-t"}),
+    )
+    world = world.model_copy(update={"objects": (*world.objects, *strange)})
+    request = PlanRequest(task="t", epoch=0, instruction=words, world=world, now_s=0.0)
+    reply = PLANNERS["scripted"](site()).make_plan(request)
+    assert (reply.plan is None) != (reply.refusal is None)

@@ -62,7 +62,7 @@ def test_a_megabyte_of_empty_maps_costs_no_memory() -> None:
         ({"tick": 1.5}, "tick: input should be a valid integer"),
         ({"tick": "1"}, "tick: input should be a valid integer"),
         ({"tick": True}, "tick: input should be a valid integer"),
-        ({"follower": "a/*"}, "follower: string should match pattern"),
+        ({"follower": "a/*"}, "follower: an id: at most 32 lower-case letters, digits and hyphens is expected"),
         ({"follower": b"hub"}, "follower: input should be a valid string"),
         ({"colour": "red"}, "colour: unknown field, leave it out; TickDone has tick, follower"),
     ],

@@ -127,3 +127,22 @@ def test_no_file(tmp_path: Path) -> None:
 def test_a_folder_is_no_site_file(tmp_path: Path) -> None:
     with pytest.raises(SiteError, match="cannot be read"):
         load_site(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('[router]\nendpoint = "udp:foo"', "router.endpoint: tcp/HOST:PORT, such as tcp/127.0.0.1:7447 is expected"),
+        ('[planner]\nname = "../evil"', "planner.name: one word: at most 32 letters"),
+        ('[view]\nmemory_limit = "lots"', "view.memory_limit: a size, such as 64MiB is expected"),
+    ],
+)
+def test_what_has_the_wrong_shape_is_told_in_words(line: str, said: str, tmp_path: Path) -> None:
+    assert said in fault(f"{GOOD}\n{line}\n", tmp_path)
+
+
+def test_a_robot_outside_of_the_house(tmp_path: Path) -> None:
+    robot = '[[robot]]\nid = "dog-9"\nkind = "quadruped"\nstart_m = [%s, 1.0]\n'
+    (tmp_path / "good.toml").write_text(GOOD + robot % "3.0")
+    assert load_site(tmp_path / "good.toml").robot[-1].id == "dog-9"
+    assert "start_m: (104, 1) m is in no room" in fault(GOOD + robot % "104.0", tmp_path)

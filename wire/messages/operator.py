@@ -93,4 +93,6 @@ class WhyEntry(Message):
 class WhyReply(Message):
     now_s: Stamp
     entries: tuple[WhyEntry, ...] = ()
+    more: int = Field(default=0, ge=0)
+    """So many others are meant too and were left out."""
     text: Text = ""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from devices.cctv.reader import SourceReader
-from devices.cctv.sources import SourceEnded, SourceLost, SourceWrong, open_source
+from devices.cctv.sources import SourceEnded, SourceLost, SourceWrong, open_source, shown
 from wire.site import Camera
 
 
@@ -113,3 +113,31 @@ def test_the_reader_hands_over_pictures_and_tells_of_faults(tmp_path: Path) -> N
     wrong._thread.join(timeout=5.0)
     assert "there is no" in wrong.fault
     wrong.stop()
+
+
+@pytest.mark.parametrize(
+    ("source", "told"),
+    [
+        ("rtsp://admin:p@ss/w0rd@10.0.0.2:554/stream1", "rtsp://***@10.0.0.2:554/stream1"),
+        (
+            "http://10.0.0.2/video?user=admin&password=secret&size=1",
+            "http://10.0.0.2/video?user=admin&password=***&size=1",
+        ),
+        ("rtsp://10.0.0.2/user=admin_password=secret_channel=1", "rtsp://10.0.0.2/user=admin_password=***_channel=1"),
+        ("rtsp://10.0.0.2:554/stream1", "rtsp://10.0.0.2:554/stream1"),
+        ("recordings/monday@home.mp4", "recordings/monday@home.mp4"),
+    ],
+)
+def test_an_address_is_told_without_its_password(source: str, told: str) -> None:
+    assert shown(source) == told
+
+
+def test_a_stream_that_does_not_answer_is_named_without_its_password() -> None:
+    with pytest.raises(SourceLost) as lost:
+        open_source(camera("rtsp://admin:secret@127.0.0.1:9/live"))
+    assert "127.0.0.1:9/live does not answer" in str(lost.value)
+    assert "secret" not in str(lost.value)
+
+
+def test_a_reader_that_was_never_started_can_be_stopped(tmp_path: Path) -> None:
+    SourceReader(camera(write_pictures(tmp_path))).stop()

@@ -9,6 +9,7 @@ from sim.cameras import Cameras
 from sim.carrier import Arm
 from sim.faults import Faults
 from sim.generator import make_home
+from sim.hangar import Hangar, drone_starts
 from sim.judge import Judge
 from sim.locomotion import Locomotion
 from sim.models import parts
@@ -36,7 +37,8 @@ class SimCore:
         self.scene = scene
         walkers = [robot for robot in site.robot if robot.kind == "quadruped"]  # what else there is brings its own body
         starts = [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in walkers]
-        self.physics = Physics(scene, starts, site.sim.legs)
+        self.physics = Physics(scene, starts, site.sim.legs, drone_starts(site), site.sim.seed)
+        self._hangar = Hangar(site, self.physics)
         self._renderer = renderer
         self._step_s = site.clock.step_s
         self._substeps = _substeps(site)
@@ -71,6 +73,7 @@ class SimCore:
     def stop(self) -> None:
         if self._renderer is not None:
             self._renderer.close()
+        self._hangar.close()
         self.physics.close()
 
     def _handle(self, event: Event, now_s: float) -> None:
@@ -86,8 +89,10 @@ class SimCore:
         """One tick: physics first, then what the sensors notice of it."""
         for legs in self._legs.values():
             legs.watch(now_s)
+        self._hangar.listen()
         if self._tick > 0:
             self.physics.advance(self._substeps)
+        self._hangar.tell()
         for robot, legs in self._legs.items():
             legs.publish(self._node, self._tick, now_s)
             self._publish_arm(robot, now_s)
@@ -116,6 +121,8 @@ class SimCore:
             motion = rover.motion()
             holding = self._arms[robot].held is not None
             renderer.set_robot(robot, (*motion.position_m, 0.0), motion.yaw_rad, holding)
+        for id, drone in self.physics.drones.items():
+            renderer.set_robot(id, *drone.true_pose(), flies=True)
         for frame in self._cameras.shoot(renderer, self._tick, now_s):
             self._faults.pass_frame(frame, now_s)
 

@@ -16,6 +16,11 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=None, help="file to write; standard output when left out")
     parser.add_argument("--name", default=None, help="the site's name; home-N when left out")
     parser.add_argument("--robots", type=int, default=3)
+    parser.add_argument("--drones", type=int, default=0)
+    parser.add_argument(
+        "--firmware", choices=("ardupilot", "px4"), default="ardupilot", help="of the drones' autopilots"
+    )
+    parser.add_argument("--mavlink-port", type=int, default=14540, help="of the first drone")
     parser.add_argument("--spread", action="store_true", help="robots begin all over the home, not side by side")
     parser.add_argument("--no-cctv", dest="cctv", action="store_false", help="leave the fixed cameras out")
     parser.add_argument("--clock", choices=("lockstep", "wall"), default="lockstep")

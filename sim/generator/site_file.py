@@ -8,12 +8,20 @@ from sim.scene import CctvPose, Door, Room, Scene, Wall
 Value = str | int | float | bool | tuple["Value", ...]
 
 
+DRONE_SPEED = 2.0
+"""Clients of an autopilot have clocks of their own: with a drone in it, simulated time runs no faster than this."""
+
+
 @dataclass(frozen=True)
 class Options:
     """What a site file says besides the building. Ports: of the router, of the view."""
 
     name: str | None = None
     robots: int = 3
+    drones: int = 0
+    firmware: str = "ardupilot"
+    mavlink_port: int = 14540
+    """Where the first drone looks for its autopilot, the next one at the next port."""
     spread: bool = False
     """Robots begin all over the home rather than side by side."""
     cctv: bool = True
@@ -34,14 +42,25 @@ def write_site(scene: Scene, options: Options | None = None) -> str:
     most = len(scene.robot_starts)
     if not 1 <= options.robots <= most:
         raise ValueError(f"{options.robots} robots asked for: this home has starts for 1 to {most}")
+    if not 0 <= options.drones <= most - options.robots:
+        raise ValueError(
+            f"{options.drones} drones asked for: beside {options.robots} robots this home has starts for {most - options.robots}"
+        )
     starts = scene.robot_starts[-options.robots :] if options.spread else scene.robot_starts[: options.robots]
+    drones = [start for start in scene.robot_starts if start not in starts][: options.drones]
+    clock: dict[str, Value] = {"mode": options.clock}
+    if drones:
+        clock["speed"] = DRONE_SPEED
+    sim: dict[str, Value] = {"seed": scene.seed, "smart_appliances": options.smart_appliances}
+    if drones:
+        sim["firmware"] = options.firmware
     tables = [
         _table("", {"name": options.name or f"home-{scene.seed}"}),
         _table("[router]", {"endpoint": f"tcp/127.0.0.1:{options.port}"}),
-        _table("[clock]", {"mode": options.clock}),
+        _table("[clock]", clock),
         _table("[planner]", {"name": options.planner}),
         _table("[view]", {"grpc_port": options.view_port, "save": options.save}),
-        _table("[sim]", {"seed": scene.seed, "smart_appliances": options.smart_appliances}),
+        _table("[sim]", sim),
         *(_table("[[sim.fault]]", row) for row in options.faults),
         *(_room(room) for room in scene.rooms),
         *(_wall(wall) for wall in scene.walls),
@@ -51,7 +70,20 @@ def write_site(scene: Scene, options: Options | None = None) -> str:
             _table("[[robot]]", {"id": f"dog-{k}", "kind": "quadruped", "start_m": at, "start_yaw_deg": _deg(yaw)})
             for k, (at, yaw) in enumerate(starts, start=1)
         ),
-        *(_table("[[process]]", row) for row in _processes(len(cameras), options.robots)),
+        *(
+            _table(
+                "[[robot]]",
+                {
+                    "id": f"drone-{k}",
+                    "kind": "drone",
+                    "start_m": at,
+                    "start_yaw_deg": _deg(yaw),
+                    "link": f"udpin://127.0.0.1:{options.mavlink_port + k - 1}",
+                },
+            )
+            for k, (at, yaw) in enumerate(drones, start=1)
+        ),
+        *(_table("[[process]]", row) for row in _processes(len(cameras), options.robots, len(drones))),
     ]
     return "\n".join(tables)
 
@@ -77,7 +109,7 @@ def read_fault(text: str) -> dict[str, Value]:
     return row
 
 
-def _processes(cameras: int, robots: int) -> list[dict[str, Value]]:
+def _processes(cameras: int, robots: int, drones: int) -> list[dict[str, Value]]:
     rows = [
         ("router", "router", "wire.router"),
         ("sim", "sim", "sim"),
@@ -86,6 +118,7 @@ def _processes(cameras: int, robots: int) -> list[dict[str, Value]]:
         ("view", "view", "hub.view"),
         *((f"cctv-{k}", "cctv", "devices.cctv") for k in range(1, cameras + 1)),
         *((f"dog-{k}", "robot", "devices.quadruped") for k in range(1, robots + 1)),
+        *((f"drone-{k}", "robot", "devices.drone") for k in range(1, drones + 1)),
     ]
     return [{"id": id, "role": role, "module": module} for id, role, module in rows]
 

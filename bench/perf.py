@@ -88,6 +88,14 @@ SECTIONS: tuple[Section, ...] = (
     Section("bench.pixels", "the demo mesh with pixel perception", (
         Claim("times real time", "x", 2, True, lambda d: d["times_real_time"]),
     )),
+    Section("sim.flight.bench", "the simulated quadrotor", (
+        Claim("holds its place within (RMS)", "m", 0.05, False, lambda d: d["hold_rms_m"]["worst"]),
+        Claim("overshoot of 10 m", "%", 10, False, lambda d: 100.0 * d["overshoot_of_10_m"]["worst"]),
+        Claim("waypoint error", "m", 0.15, False, lambda d: d["waypoint_error_m"]["worst"]),
+        Claim("landing error", "m", 0.5, False, lambda d: d["landing_error_m"]["worst"]),
+        Claim("one vehicle, times real time", "x", 60, True, lambda d: d["times_real_time"]),
+        Claim("ten vehicles, times real time", "x", 5, True, lambda d: d["times_real_time_10_vehicles"]),
+    ), ("--png", "out/perf/flight.png")),
 )  # fmt: skip
 
 

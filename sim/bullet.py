@@ -17,6 +17,8 @@ STEP_S = 1.0 / 240.0
 SOLVER_ITERATIONS = 20
 
 _CALLS = (
+    "applyExternalForce",
+    "applyExternalTorque",
     "changeDynamics",
     "createCollisionShape",
     "createCollisionShapeArray",

@@ -1,0 +1,183 @@
+"""Flying a mission item by item."""
+
+import math
+from dataclasses import dataclass
+
+from sim.autopilot.flying import Activity, Circle, Climb, Descend, GoHome, Hover, Travel
+from sim.autopilot.interface import Item, Severity
+from sim.autopilot.mission import (
+    DELAY,
+    JUMP,
+    LAND,
+    LOITER,
+    LOITER_TIME,
+    LOITER_TURNS,
+    REGION,
+    REGION_AT,
+    REGION_NONE,
+    RETURN,
+    SET_HOME,
+    SPEED,
+    TAKEOFF,
+    YAW,
+    Mission,
+    spot,
+)
+from sim.autopilot.situation import LOWEST_FLIGHT_M, Situation
+from sim.flight.state import Setpoint, Vec3
+
+_LOITER_RADIUS_M = 1.0
+_ON_GROUND = frozenset({TAKEOFF, LAND, RETURN, DELAY})
+
+
+@dataclass(slots=True)
+class MissionRun:
+    """From the mission's current item on. Takes off first when the items do not say so; hovers when all are done."""
+
+    mission: Mission
+    _leg: Activity | None = None
+    _rest: Activity | None = None
+    _seq: int = -1
+    _lifting: bool = False
+    _stay_s: float = 0.0
+    _done_s: float | None = None
+    _nose_rad: float | None = None
+    paused: bool = False
+
+    @property
+    def done(self) -> bool:
+        return self.mission.finished
+
+    @property
+    def place_ned_m(self) -> Vec3 | None:
+        leg = self._leg or self._rest
+        return getattr(leg, "place_ned_m", None)
+
+    def step(self, now: Situation, now_s: float) -> Setpoint:
+        if self.paused:
+            self._leg = None
+            return self._hover(now, now_s)
+        mission = self.mission
+        if mission.finished and self._leg is None:
+            return self._hover(now, now_s)
+        if self._leg is not None and self._seq != mission.current and not mission.finished:
+            self._leg = None  # another item was made the current one
+        for _ in range(len(mission.items) + 1):
+            if self._leg is not None or mission.finished:
+                break
+            self._begin(mission.items[mission.current], now)
+        if self._leg is None:
+            if not mission.finished:
+                now.say(Severity.WARNING, "Mission: no item of it flies anywhere")
+                mission.finished = True
+            return self._hover(now, now_s)
+        setpoint = self._leg.step(now, now_s)
+        self._rest = None
+        if not self._leg.done:
+            self._done_s = None
+        elif self._done_s is None:
+            self._done_s = now_s
+        if self._done_s is not None and now_s - self._done_s >= self._stay_s:
+            self._end()
+        return setpoint
+
+    def _end(self) -> None:
+        self._rest, self._leg, self._done_s = self._leg, None, None
+        if isinstance(self._rest, Circle | GoHome):
+            self._rest = None
+        if self._lifting:
+            self._lifting = False
+        else:
+            self.mission.advance()
+
+    def _hover(self, now: Situation, now_s: float) -> Setpoint:
+        self._rest = self._rest or Hover()
+        return self._rest.step(now, now_s)
+
+    def _begin(self, item: Item, now: Situation) -> None:
+        self._seq, self._stay_s, self._done_s = item.seq, 0.0, None
+        if item.command == JUMP:
+            self.mission.jump(item)
+        elif item.command in (YAW, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION):
+            self._set(item, now)
+            self.mission.advance()
+        elif now.vehicle.on_ground and item.command not in _ON_GROUND:
+            height = now.params.get("MIS_TAKEOFF_ALT", 1.0)
+            self._lifting, self._leg = True, Climb(now.below_ceiling((0.0, 0.0, now.home[2] - height))[2])
+        else:
+            self._leg = self._activity(item, now)
+
+    def _activity(self, item: Item, now: Situation) -> Activity:
+        if item.command == RETURN:
+            return GoHome()
+        if item.command == DELAY:
+            self._stay_s = item.params[0]
+            return Hover()
+        found = spot(item, now)
+        target = found if isinstance(found, tuple) else now.here
+        if item.command == LAND:
+            return Landing(Travel((target[0], target[1], now.here[2]), now.quantity("acceptance_m")), Descend())
+        if item.command == TAKEOFF:
+            down = min(target[2], now.home[2] - LOWEST_FLIGHT_M)
+            return Climb(now.below_ceiling((0.0, 0.0, down))[2])
+        target = now.below_ceiling((target[0], target[1], min(target[2], -0.2)))
+        if item.command == LOITER_TURNS:
+            radius = item.params[2] if math.isfinite(item.params[2]) and item.params[2] else _LOITER_RADIUS_M
+            return Circle(target, max(-50.0, min(50.0, radius)), min(1.0, now.cruise_mps), item.params[0])
+        if item.command == LOITER:
+            self._stay_s = math.inf
+        elif math.isfinite(item.params[0]):
+            self._stay_s = item.params[0]
+        radius = now.quantity("acceptance_m")
+        if item.command != LOITER_TIME and 0.0 < item.params[1] < 50.0:
+            radius = max(0.05, item.params[1])
+        return Travel(target, radius, self._nose(item, target, now))
+
+    def _nose(self, item: Item, target: Vec3, now: Situation) -> float | None:
+        """PX4's waypoints may say a heading; else CONDITION_YAW's, else along the way."""
+        if now.row.name == "px4" and abs(item.params[3]) <= 360.0:
+            return math.remainder(math.radians(item.params[3]), math.tau)
+        if self._nose_rad is not None:
+            return self._nose_rad
+        north, east = target[0] - now.here[0], target[1] - now.here[1]
+        return math.atan2(east, north) if math.hypot(north, east) > 0.5 else None
+
+    def _set(self, item: Item, now: Situation) -> None:
+        if item.command == SPEED:
+            now.speed_mps = item.params[1] if item.params[1] > 0 else None
+        elif item.command == YAW:
+            offset = now.estimate.heading_rad if item.params[3] == 1 else 0.0
+            hand = -1.0 if item.params[3] == 1 and item.params[2] == -1 else 1.0
+            self._nose_rad = math.remainder(offset + hand * math.radians(item.params[0]), math.tau)
+        elif item.command == SET_HOME and item.params[0] != 1:
+            found = spot(item, now)
+            now.home_ned_m = found if isinstance(found, tuple) else now.home_ned_m
+        elif item.command == SET_HOME:
+            now.home_ned_m = now.here
+        else:
+            found = None if item.command == REGION_NONE else spot(item, now)
+            now.region_ned_m = found if isinstance(found, tuple) else None
+
+
+@dataclass(slots=True)
+class Landing:
+    """Go above a place, then land there."""
+
+    way: Travel
+    landing: Descend
+
+    @property
+    def done(self) -> bool:
+        return self.landing.done
+
+    @property
+    def place_ned_m(self) -> Vec3:
+        return self.way.place_ned_m
+
+    def step(self, now: Situation, now_s: float) -> Setpoint:
+        if not self.way.done and not now.vehicle.on_ground and now.estimate.position_ok:
+            setpoint = self.way.step(now, now_s)
+            if self.way.done:
+                self.landing.place_ned_m = self.way.place_ned_m
+            return setpoint
+        return self.landing.step(now, now_s)

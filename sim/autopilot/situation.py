@@ -1,0 +1,91 @@
+"""What the firmware knows at one moment; every algorithm beside it reads this and says its texts here."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+from sim.autopilot.geo import Origin
+from sim.autopilot.interface import Severity
+from sim.autopilot.params import Params
+from sim.autopilot.personality import Mode, Personality, Quantity
+from sim.flight.state import Estimate, Vec3, Vehicle
+
+CLEARANCE_M = 0.4
+"""Nothing is aimed at higher than this below the ceiling."""
+LOWEST_FLIGHT_M = 0.3
+"""Take-off and return go at least this high."""
+
+
+@dataclass(slots=True)
+class Situation:
+    """Shared by the algorithms of one autopilot. Heights are above the floor, positions local NED."""
+
+    vehicle: Vehicle
+    row: Personality
+    params: Params
+    gps: Literal["fused", "none"]
+    ceiling_m: float
+    """Height of the ceiling; infinite outdoors."""
+    origin: Origin | None
+    mode: Mode
+    custom_mode: int
+    armed: bool = False
+    armed_since_s: float = 0.0
+    home_ned_m: Vec3 | None = None
+    home_heading_rad: float = 0.0
+    speed_mps: float | None = None
+    """Asked for by DO_CHANGE_SPEED; None: the parameter's."""
+    region_ned_m: Vec3 | None = None
+    """The region of interest: the nose points there."""
+    said: list[tuple[Severity, str]] = field(default_factory=list)
+
+    def say(self, severity: Severity, text: str) -> None:
+        self.said.append((severity, text))
+
+    @property
+    def estimate(self) -> Estimate:
+        return self.vehicle.estimate
+
+    @property
+    def here(self) -> Vec3:
+        return self.vehicle.estimate.position_ned_m
+
+    @property
+    def flying(self) -> bool:
+        return self.armed and not self.vehicle.on_ground
+
+    @property
+    def located(self) -> bool:
+        """Whether it knows where it is, across and in height."""
+        estimate = self.vehicle.estimate
+        return estimate.position_ok and estimate.height_ok and estimate.attitude_ok
+
+    @property
+    def home(self) -> Vec3:
+        """Home, or where it stands as long as there is none."""
+        return self.home_ned_m or self.here
+
+    def below_ceiling(self, point: Vec3) -> Vec3:
+        """The point, lowered below the ceiling where it must be."""
+        return point[0], point[1], max(point[2], self.top_down_m)
+
+    @property
+    def top_down_m(self) -> float:
+        """The least (highest) down coordinate that may be aimed at."""
+        return -max(self.ceiling_m - CLEARANCE_M, LOWEST_FLIGHT_M)
+
+    def towards_region(self) -> float | None:
+        """Heading to the region of interest; None without one or right above it."""
+        if self.region_ned_m is None:
+            return None
+        north, east = self.region_ned_m[0] - self.here[0], self.region_ned_m[1] - self.here[1]
+        return math.atan2(east, north) if math.hypot(north, east) > 0.2 else None
+
+    def quantity(self, name: Quantity) -> float:
+        """In SI units, from this firmware's parameter."""
+        parameter, factor = self.row.quantities[name]
+        return self.params.get(parameter) * factor
+
+    @property
+    def cruise_mps(self) -> float:
+        return self.quantity("cruise_mps") if self.speed_mps is None else self.speed_mps

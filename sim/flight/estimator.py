@@ -1,0 +1,169 @@
+"""Attitude, velocity and position from sensors: never from the truth.
+
+Attitude is integrated from the gyroscope and pulled towards gravity, compass and what the velocity fixes say of the
+tilt; velocity and position are integrated from the accelerometer and pulled towards fixes, poses from outside, or for
+the height alone the barometer. Gains are fixed: those at which a Kalman filter of these noises settles, rounded.
+"""
+
+from math import cos, sin, sqrt
+
+from sim.flight.attitude import euler, heading, multiply, normalised, wrapped
+from sim.flight.sensing import magnetic_heading
+from sim.flight.state import Estimate, Quaternion, Vec3
+
+FRESH_S = 1.0
+"""A position without fix or pose for longer is not to be relied on."""
+_GRAVITY = 9.81
+_LEVEL_PER_S, _GYRO_BIAS_PER_S = 0.25, 0.02
+_COMPASS, _OUTSIDE_HEADING = 0.02, 0.1
+_TILT_PER_MPS = 0.01
+_FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS = 0.18, 0.22, 0.5
+_POSE_POSITION, _POSE_CROSS = 0.25, 1.6
+_BIAS_PER_MPS, _MOST_BIAS = 0.06, 0.8
+_BARO_HEIGHT, _BARO_CLIMB = 0.02, 0.01
+_JUMP_M = 2.0
+"""A pose this far from the estimate begins it anew."""
+
+
+class Estimator:
+    """`predict` at every physics step, the others as measurements come."""
+
+    __slots__ = (
+        "_bias_a", "_bias_n", "_fixed_s", "_lost_s", "_pose_s", "_started", "estimate", "pd", "pe", "pn", "q", "vd", "ve",
+        "vn", "wx", "wy", "wz",
+    )  # fmt: skip
+
+    def __init__(self, position_ned_m: Vec3, heading_rad: float) -> None:
+        self.q: Quaternion = (cos(heading_rad / 2.0), 0.0, 0.0, sin(heading_rad / 2.0))
+        self.pn, self.pe, self.pd = position_ned_m
+        self.vn = self.ve = self.vd = 0.0
+        self.wx = self.wy = self.wz = 0.0
+        self._bias_a = [0.0, 0.0, 0.0]
+        """Of the acceleration, in NED."""
+        self._bias_n = [0.0, 0.0, 0.0]
+        """Of the gyroscope, in FRD."""
+        self._fixed_s = self._pose_s = self._lost_s = -1e9
+        self._started = False
+        self.estimate = Estimate()
+
+    def predict(self, gyro: Vec3, accel: Vec3, step_s: float) -> None:
+        """One step of the inertial measurements."""
+        w, x, y, z = self.q
+        bias = self._bias_n
+        p, q, r = gyro[0] - bias[0], gyro[1] - bias[1], gyro[2] - bias[2]
+        ax, ay, az = accel
+        # where the accelerometer feels up, against where the attitude says it is
+        gx, gy, gz = 2.0 * (x * z - w * y), 2.0 * (w * x + y * z), w * w - x * x - y * y + z * z
+        size = sqrt(ax * ax + ay * ay + az * az)
+        cx = cy = cz = 0.0
+        if 9.3 < size < 10.3:
+            k = 1.0 / size
+            cx, cy, cz = k * (gy * az - gz * ay), k * (gz * ax - gx * az), k * (gx * ay - gy * ax)
+            turn = _GYRO_BIAS_PER_S * step_s
+            bias[0] -= turn * cx
+            bias[1] -= turn * cy
+            bias[2] -= turn * cz
+        self.wx, self.wy, self.wz = p, q, r
+        h = 0.5 * step_s
+        a, b, c = h * (p + _LEVEL_PER_S * cx), h * (q + _LEVEL_PER_S * cy), h * (r + _LEVEL_PER_S * cz)
+        w, x, y, z = (
+            w - x * a - y * b - z * c,
+            x + w * a + y * c - z * b,
+            y + w * b + z * a - x * c,
+            z + w * c + x * b - y * a,
+        )
+        n = 1.5 - 0.5 * (w * w + x * x + y * y + z * z)
+        w, x, y, z = w * n, x * n, y * n, z * n
+        self.q = (w, x, y, z)
+        tx, ty, tz = 2.0 * (y * az - z * ay), 2.0 * (z * ax - x * az), 2.0 * (x * ay - y * ax)
+        drift = self._bias_a
+        an = ax + w * tx + y * tz - z * ty + drift[0]
+        ae = ay + w * ty + z * tx - x * tz + drift[1]
+        ad = az + w * tz + x * ty - y * tx + drift[2] + _GRAVITY
+        self.pn += step_s * (self.vn + 0.5 * step_s * an)
+        self.pe += step_s * (self.ve + 0.5 * step_s * ae)
+        self.pd += step_s * (self.vd + 0.5 * step_s * ad)
+        self.vn += step_s * an
+        self.ve += step_s * ae
+        self.vd += step_s * ad
+
+    def fix(self, now_s: float, position_ned_m: Vec3, velocity_ned_mps: Vec3, span_s: float) -> None:
+        """A fix of the indoor position system, `span_s` after the one before."""
+        if now_s - max(self._fixed_s, self._pose_s) > FRESH_S:
+            self.restart(position_ned_m)
+        self._fixed_s = now_s
+        dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
+        un, ue, ud = (z - v for z, v in zip(velocity_ned_mps, (self.vn, self.ve, self.vd), strict=True))
+        self._correct(dn, de, dd, un, ue, ud, _FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS * span_s)
+
+    def pose(self, now_s: float, position_ned_m: Vec3, heading_rad: float | None) -> None:
+        """A pose from outside: vision, motion capture."""
+        span_s = min(0.2, now_s - self._pose_s)
+        far = max(abs(z - p) for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True)) > _JUMP_M
+        if now_s - max(self._fixed_s, self._pose_s) > FRESH_S or far:
+            self.restart(position_ned_m)
+        self._pose_s = now_s
+        if heading_rad is not None:
+            self._turn(0.0, 0.0, _OUTSIDE_HEADING * wrapped(heading_rad - heading(self.q)))
+        if now_s - self._fixed_s > FRESH_S:
+            dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
+            un, ue, ud = (_POSE_CROSS * d for d in (dn, de, dd))
+            self._correct(dn, de, dd, un, ue, ud, _POSE_POSITION, span_s, 0.0)
+
+    def restart(self, position_ned_m: Vec3) -> None:
+        """Take a place as it is, and rest there."""
+        self.pn, self.pe, self.pd = position_ned_m
+        self.vn = self.ve = self.vd = 0.0
+
+    def compass(self, now_s: float, mag_frd_gauss: Vec3) -> None:
+        roll, pitch, yaw = euler(self.q)
+        error = wrapped(magnetic_heading(mag_frd_gauss, roll, pitch) - yaw)
+        if not self._started:
+            self._started = True
+            self._turn(0.0, 0.0, error)
+        elif now_s - self._pose_s > FRESH_S:
+            self._turn(0.0, 0.0, _COMPASS * error)
+
+    def barometer(self, now_s: float, height_m: float) -> None:
+        """Height above the site's floor, used while there is nothing better."""
+        if now_s - max(self._fixed_s, self._pose_s) > FRESH_S:
+            error = -height_m - self.pd
+            self.pd += _BARO_HEIGHT * error
+            self.vd += _BARO_CLIMB * error
+
+    def tell(self, now_s: float) -> None:
+        """Bring `estimate` up to date."""
+        told = self.estimate
+        age_s = now_s - max(self._fixed_s, self._pose_s)
+        told.stamp_s = now_s
+        told.position_ned_m = (self.pn, self.pe, self.pd)
+        told.velocity_ned_mps = (self.vn, self.ve, self.vd)
+        told.attitude = self.q
+        told.roll_rad, told.pitch_rad, told.heading_rad = euler(self.q)
+        told.rates_frd_radps = (self.wx, self.wy, self.wz)
+        told.position_ok = self._started and age_s < FRESH_S
+        told.height_ok = told.attitude_ok = self._started
+        told.position_std_m = 0.02 + 0.3 * min(100.0, max(0.0, age_s - 0.3))
+        told.velocity_std_mps = 0.03 + 0.1 * min(100.0, max(0.0, age_s - 0.3))
+
+    def _correct(
+        self, dn: float, de: float, dd: float, un: float, ue: float, ud: float, place: float, speed: float, cross: float
+    ) -> None:
+        self.pn += place * dn
+        self.pe += place * de
+        self.pd += place * dd
+        self.vn += speed * un + cross * dn
+        self.ve += speed * ue + cross * de
+        self.vd += speed * ud + cross * dd
+        drift = self._bias_a
+        for k, u in ((0, un), (1, ue), (2, ud)):
+            drift[k] = max(-_MOST_BIAS, min(_MOST_BIAS, drift[k] + _BIAS_PER_MPS * u))
+        # an unforeseen push to the north is a lean that was not seen: the attitude turns about east, and so on
+        self._turn(_TILT_PER_MPS * ue, -_TILT_PER_MPS * un, 0.0)
+
+    def _turn(self, north: float, east: float, down: float) -> None:
+        """Turn the attitude by a small angle about NED axes, or a large one about down alone."""
+        if abs(down) > 0.2:
+            self.q = normalised(multiply((cos(down / 2.0), 0.0, 0.0, sin(down / 2.0)), self.q))
+            return
+        self.q = normalised(multiply((1.0, north / 2.0, east / 2.0, down / 2.0), self.q))

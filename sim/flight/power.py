@@ -1,0 +1,44 @@
+"""A battery of four lithium cells: charge, voltage under load, and hooks to provoke what a low one does."""
+
+from sim.flight.state import Battery
+
+CAPACITY_MAH = 5200.0
+_CELLS, _EMPTY_V, _SPAN_V = 4, 3.45, 0.75
+_RESISTANCE_OHM = 0.03
+
+
+class Power:
+    """Drained by what the rotors take."""
+
+    __slots__ = ("_drain_s", "_pinned_v", "state")
+
+    def __init__(self) -> None:
+        self.state = Battery(voltage_v=_rest_v(1.0))
+        self._drain_s: float | None = None
+        self._pinned_v: float | None = None
+
+    def provoke(self, remaining: float | None, drain_s: float | None, voltage_v: float | None) -> None:
+        """`drain_s` of 0 and `voltage_v` of 0 let go of what was set before."""
+        if remaining is not None:
+            self.state.remaining = max(0.0, min(1.0, remaining))
+            self.state.voltage_v = _rest_v(self.state.remaining)
+        if drain_s is not None:
+            self._drain_s = drain_s or None
+        if voltage_v is not None:
+            self._pinned_v = voltage_v or None
+
+    def draw(self, power_w: float, span_s: float) -> None:
+        state = self.state
+        current_a = power_w / max(6.0, state.voltage_v)
+        used = current_a * span_s / 3.6
+        state.current_a = current_a
+        state.consumed_mah += used
+        gone = used / CAPACITY_MAH
+        if self._drain_s is not None and power_w > 20.0:
+            gone = max(gone, span_s / self._drain_s)
+        state.remaining = max(0.0, state.remaining - gone)
+        state.voltage_v = self._pinned_v or max(8.0, _rest_v(state.remaining) - _RESISTANCE_OHM * current_a)
+
+
+def _rest_v(remaining: float) -> float:
+    return _CELLS * (_EMPTY_V + _SPAN_V * remaining)

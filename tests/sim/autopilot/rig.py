@@ -86,7 +86,16 @@ class Rig:
         assert self.fly(10, lambda: abs(self.true_ned[2] + height_m) < 0.2), self.true_ned
         self.fly(1.0)
 
-    def target(self, frame=1, mask=0x9F8, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), accel=(0.0, 0.0, 0.0), yaw=0.0, rate=0.0):
+    def target(
+        self,
+        frame=1,
+        mask=0x9F8,
+        position=(0.0, 0.0, 0.0),
+        velocity=(0.0, 0.0, 0.0),
+        accel=(0.0, 0.0, 0.0),
+        yaw=0.0,
+        rate=0.0,
+    ):
         self.firmware.position_target(PositionTarget(frame, mask, position, velocity, accel, yaw, rate), self.now_s)
 
     def stream(self, **target) -> None:

@@ -65,7 +65,8 @@ class Vehicle:
         self._located_s = self.heard_s = asyncio.get_running_loop().time()
         self._position: Vec3 | None = None
         self._velocity: Vec3 = (0.0, 0.0, 0.0)
-        self._yaw_rad, self._armed, self._mode, self._landed = 0.0, False, "UNKNOWN", 0
+        self._yaw_rad, self._mode, self._landed = 0.0, "UNKNOWN", 0
+        self._armed: bool | None = None
         self._battery: float | None = None
         self._health_ok = self._armable = False
         self._cameras: list[int] = []
@@ -254,6 +255,8 @@ class Vehicle:
 
     def _tell_all(self) -> None:
         self.heard_s = asyncio.get_running_loop().time()
+        if self._armed is None:
+            return  # the first heartbeat says whether it may be in the air
         known = self.heard_s - self._located_s < STALE_S
         self._tell(
             Telemetry(

@@ -4,6 +4,7 @@ Runs in the client's loop. An order that MAVSDK refuses is answered with its rea
 """
 
 import asyncio
+import json
 from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
 from math import isfinite
 from typing import Any
@@ -12,6 +13,7 @@ from mavsdk.asyncio import Autopilot, MavsdkError, System
 from mavsdk.asyncio import Vehicle as VehicleType
 from mavsdk.asyncio.plugins.action import ActionAsync
 from mavsdk.asyncio.plugins.camera import CameraAsync
+from mavsdk.asyncio.plugins.mavlink_direct import MavlinkDirectAsync, MavlinkMessage
 from mavsdk.asyncio.plugins.offboard import OffboardAsync, PositionNedYaw, VelocityNedYaw
 from mavsdk.asyncio.plugins.telemetry import StatusTextType, TelemetryAsync
 
@@ -43,6 +45,10 @@ CORE_SILENT_S = 0.5
 """Without a newer setpoint for this long the velocity is no longer fed forward."""
 CAMERA_S = 3.0
 """A camera introduces itself after its heartbeat, which comes every second."""
+DO_SET_MODE, ARM_DISARM = 176, 400
+CUSTOM_MODE, GUIDED = 1.0, 4.0
+ACKS = {0: "", 1: "rejected for now", 2: "denied", 3: "unsupported", 4: "failed", 6: "cancelled"}
+"""MAV_RESULT."""
 _LANDED: tuple[Landed, ...] = ("unknown", "on_ground", "in_air", "taking_off", "landing")
 _FIRMWARE: dict[int, Firmware] = {Autopilot.PX4: "px4", Autopilot.ARDUPILOT: "ardupilot"}
 
@@ -54,11 +60,13 @@ class Vehicle:
         self._system, self._frame, self._tell = system, frame, tell
         self._action, self._telemetry = ActionAsync(system), TelemetryAsync(system)
         self._offboard, self._camera = OffboardAsync(system), CameraAsync(system)
+        self._direct = MavlinkDirectAsync(system)
         self._firmware: Firmware = "unknown"
         self._located_s = self.heard_s = asyncio.get_running_loop().time()
         self._position: Vec3 | None = None
         self._velocity: Vec3 = (0.0, 0.0, 0.0)
-        self._yaw_rad, self._armed, self._mode, self._landed = 0.0, False, "UNKNOWN", 0
+        self._yaw_rad, self._mode, self._landed = 0.0, "UNKNOWN", 0
+        self._armed: bool | None = None
         self._battery: float | None = None
         self._health_ok = self._armable = False
         self._cameras: list[int] = []
@@ -105,7 +113,7 @@ class Vehicle:
         """Carry an order out as far as the autopilot's answer; why it was refused, or empty."""
         match order:
             case Arm():
-                return await _reason(self._action.arm())
+                return await self._arm()
             case Disarm():
                 return await _reason(self._action.disarm())
             case TakeOff():
@@ -126,6 +134,27 @@ class Vehicle:
             self._wanted = setpoint
             self._fresh.set()
 
+    async def _arm(self) -> str:
+        """ArduCopter does not arm in the mode in which it has landed, and MAVSDK would put it into BRAKE, in which it
+        does not arm either: so GUIDED first, and the arming without MAVSDK's own ideas."""
+        if self._firmware != "ardupilot":
+            return await _reason(self._action.arm())
+        await self._command(DO_SET_MODE, CUSTOM_MODE, GUIDED)  # refused, it is armed or not in the mode in which it is
+        return await self._command(ARM_DISARM, 1.0)
+
+    async def _command(self, command: int, param1: float, param2: float = 0.0) -> str:
+        """A MAVLink command for which MAVSDK has no call: why it was refused, or empty."""
+        system = await self._system.get_system_id()
+        fields = {"target_system": system, "target_component": 1, "command": command, "confirmation": 0}
+        fields |= {"param1": param1, "param2": param2} | {f"param{i}": 0.0 for i in range(3, 8)}
+        message = MavlinkMessage("COMMAND_LONG", 0, 0, system, 1, json.dumps(fields))
+        try:
+            answer = json.loads((await self._direct.send_command(message)).fields_json)
+        except MavsdkError as error:
+            return _words(error)
+        result = int(answer.get("result", 0))
+        return ACKS.get(result, f"MAV_RESULT {result}")
+
     async def _steer(self, setpoint: Setpoint) -> str:
         self._wanted = setpoint
         reason = await self._send(setpoint) or await _reason(self._offboard.start())
@@ -134,8 +163,8 @@ class Vehicle:
         return reason
 
     async def _hover(self, setpoint: Setpoint) -> str:
-        """PX4 holds by itself. ArduCopter's LOITER takes its height from the sticks of a remote control, which there
-        may be none of; in GUIDED it stays at its last target."""
+        """PX4 holds by itself. ArduCopter stays in GUIDED at its last target: in LOITER it takes its height from the
+        sticks of a remote control, and MAVSDK's hold is BRAKE, which stops it anywhere."""
         self._wanted = None
         if self._firmware == "px4":
             return await _reason(self._action.hold())
@@ -226,6 +255,8 @@ class Vehicle:
 
     def _tell_all(self) -> None:
         self.heard_s = asyncio.get_running_loop().time()
+        if self._armed is None:
+            return  # the first heartbeat says whether it may be in the air
         known = self.heard_s - self._located_s < STALE_S
         self._tell(
             Telemetry(
@@ -247,6 +278,10 @@ async def _reason(call: Awaitable[Any]) -> str:
     try:
         await call
     except MavsdkError as error:
-        result = getattr(error, "result", None)
-        return str(getattr(result, "name", result) or error).lower().replace("_", " ")
+        return _words(error)
     return ""
+
+
+def _words(error: MavsdkError) -> str:
+    result = getattr(error, "result", None)
+    return str(getattr(result, "name", result) or error).lower().replace("_", " ")

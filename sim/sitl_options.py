@@ -96,7 +96,7 @@ def _bind(text: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 0.0.0.0") from error
+        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 127.0.0.1") from error
 
 
 def parse(argv: list[str] | None) -> Options:
@@ -116,7 +116,13 @@ def parse(argv: list[str] | None) -> Options:
     add("--seed", type=_seed, default=0, metavar="N", help="of the sensors' noise")
     add("--scene", type=_scene, default=None, metavar="home:SEED|empty", help="a furnished home, or a bare floor")
     add("--sign-key", type=_key, default=None, metavar="HEX", help="take only commands signed with this key")
-    add("--bind", type=_bind, default="127.0.0.1", metavar="ADDRESS", help="0.0.0.0 lets other machines in")
+    add(
+        "--bind",
+        type=_bind,
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="another address of this machine lets others in",
+    )
     given = parser.parse_args(argv)
     tcp, udp_out = tuple(given.tcp), tuple(given.udp_out)
     if not (tcp or udp_out or given.udp_in):

@@ -152,7 +152,7 @@ class Conduct:
         if mode == "return":
             return GoHome()
         if mode == "mission":
-            if self.plans.mission.finished:
+            if now.armed and self.plans.mission.finished:
                 self.plans.mission.restart()
             return MissionRun(self.plans.mission)
         if mode == "offboard":

@@ -109,7 +109,7 @@ class Conduct:
             self.activity = Hover(rest.place_ned_m, rest.heading_rad)
         if now.mode == "mission" and self.activity.done and not ardupilot and now.flying:
             self.enter("hold", now_s)
-        tipped = self.vehicle.tipped and abs(now.estimate.velocity_ned_mps[2]) < 0.5
+        tipped = self.vehicle.tipped and math.hypot(*now.estimate.velocity_ned_mps) < 0.5
         self._tipped_s = (self._tipped_s or now_s) if tipped else None
         if self._tipped_s is not None and now_s - self._tipped_s > _CRASH_S:
             self.disarm("Crash: disarming", now_s)

@@ -178,9 +178,10 @@ class Conduct:
     def enter(self, mode: Mode, now_s: float, custom_mode: int | None = None) -> None:
         """Change the mode; the caller has seen to it that it may be."""
         now = self.now
+        if mode != now.mode:
+            now.speed_mps = None
         now.mode = mode
         now.custom_mode = now.row.modes[mode] if custom_mode is None else custom_mode
-        now.speed_mps = None
         if self.waiting is not None:
             self.news.append((self.waiting[0], Ack.CANCELLED, 0))
             self.waiting = None

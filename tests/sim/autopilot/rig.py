@@ -126,3 +126,13 @@ class Rig:
 
 def item(seq, command, x=0.0, y=0.0, z=0.0, params=(0.0, 0.0, 0.0, 0.0), frame=1) -> Item:
     return Item(seq, frame, command, False, True, params, x, y, z)
+
+
+def ardupilot(rig: Rig) -> bool:
+    return rig.firmware.now.row.name == "ardupilot"
+
+
+def put(rig: Rig, **values: float) -> None:
+    """Set parameters."""
+    for name, value in values.items():
+        assert not isinstance(rig.firmware.set_param(name, value), str), name

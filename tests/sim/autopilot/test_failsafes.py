@@ -5,17 +5,7 @@ import math
 import pytest
 
 from sim.autopilot.interface import Ack
-from tests.sim.autopilot.rig import ZURICH, item
-
-
-def ardupilot(rig) -> bool:
-    return rig.firmware.now.row.name == "ardupilot"
-
-
-def put(rig, **values) -> None:
-    for name, value in values.items():
-        assert not isinstance(rig.firmware.set_param(name, value), str), name
-
+from tests.sim.autopilot.rig import ardupilot, put
 
 # A ground station that falls silent
 
@@ -149,72 +139,6 @@ def test_a_battery_that_only_warns(rigs):
     assert rig.in_mode("hold")
 
 
-# Fence
-
-
-def ring(kind: int, size: float):
-    corners = ((-size, -size), (size, -size), (size, size), (-size, size))
-    return [item(k, kind, x, y, params=(4, 0, 0, 0)) for k, (x, y) in enumerate(corners)]
-
-
-@pytest.mark.parametrize(
-    ("plan", "words"),
-    [
-        (ring(5001, 1.0), "inclusion zone"),
-        ([item(0, 5003, *ZURICH[:2], params=(1.0, 0, 0, 0), frame=5)], "inclusion zone"),
-        ([item(0, 5004, 2.0, 0.0, params=(1.0, 0, 0, 0))], "exclusion zone"),
-        ([item(k, 5002, x, y, params=(3, 0, 0, 0)) for k, (x, y) in enumerate(((1, -1), (3, 0), (1, 1)))], "exclusion"),
-    ],
-)
-def test_crossing_a_fence(rig, plan, words):
-    assert rig.firmware.accept_plan(1, plan) == 0
-    put(rig, **({"FENCE_ENABLE": 1, "FENCE_ACTION": 2} if ardupilot(rig) else {"GF_ACTION": 5}))
-    rig.take_off(1.0)
-    rig.offboard(mask=0xDC7, velocity=(0.8, 0.0, 0.0))
-    assert rig.fly(4, lambda: rig.in_mode("land"))
-    assert 0.8 < rig.true_ned[0] < 1.5
-    assert rig.heard(words)
-    assert rig.report.fence_breached
-    assert not rig.report.health & 0x100000
-    assert rig.report.system_status == 5
-
-
-@pytest.mark.parametrize(("limit", "velocity"), [("distance", (0.8, 0.0, 0.0)), ("altitude", (0.0, 0.0, -0.5))])
-def test_the_farthest_and_the_highest(rig, limit, velocity):
-    names = {"distance": ("FENCE_RADIUS", "GF_MAX_HOR_DIST"), "altitude": ("FENCE_ALT_MAX", "GF_MAX_VER_DIST")}[limit]
-    put(rig, **{names[0 if ardupilot(rig) else 1]: 1.5})
-    put(rig, **({"FENCE_ENABLE": 1} if ardupilot(rig) else {"GF_ACTION": 3}))
-    rig.take_off(1.0)
-    rig.offboard(mask=0xDC7, velocity=velocity)
-    assert rig.fly(4, lambda: rig.in_mode("return"))
-    assert rig.heard(f"maximum {limit}")
-    assert rig.fly(25, lambda: not rig.report.armed)
-    assert math.hypot(*rig.true_ned[:2]) < 0.5
-
-
-def test_climbing_towards_the_ceiling_ends_below_it(rigs):
-    for name in ("ardupilot", "px4"):
-        rig = rigs(name, ceiling_m=2.5)
-        rig.take_off(1.0)
-        rig.offboard(mask=0xDC7, velocity=(0.0, 0.0, -2.0))
-        rig.fly(5.0)
-        assert -2.25 < rig.true_ned[2] < -1.8
-        rig.stream(position=(0.0, 0.0, -50.0))
-        rig.fly(3.0)
-        assert -2.25 < rig.true_ned[2] < -1.9
-        assert rig.report.system_status == 4
-
-
-def test_the_ceiling_is_a_fence_for_who_flies_by_thrust(rigs):
-    rig = rigs("px4", ceiling_m=3.0)
-    put(rig, GF_ACTION=5)
-    rig.take_off(1.5)
-    assert rig.mode("stabilize").result is Ack.ACCEPTED
-    rig.every = lambda: rig.firmware.manual(0.0, 0.0, 0.65, 0.0, rig.now_s)
-    assert rig.fly(5, lambda: rig.in_mode("land"))
-    assert rig.heard("ceiling")
-
-
 # Estimator
 
 
@@ -281,33 +205,3 @@ def test_the_pilot_takes_over(rig):
     rig.fly(2.0)
     assert rig.in_mode("hold")
     assert rig.report.system_status == 5
-
-
-# No fixes: a pose from outside
-
-
-def test_flies_by_a_pose_from_outside(rigs):
-    for name in ("ardupilot", "px4"):
-        rig = rigs(name, gps="none")
-        assert rig.report.ekf_flags & 0x80
-        assert rig.report.origin is None
-        rig.every = lambda rig=rig: rig.firmware.external_pose(rig.true_ned, 0.0, rig.now_s)
-        rig.fly(2.0)
-        assert rig.report.health & 0x80
-        assert rig.report.ekf_flags == 0x12F
-        assert rig.report.armable
-        assert rig.do(192, -1, 1, x=47.0, y=8.0, z=1.0, frame=3).result is rig.firmware.now.row.refused
-        assert not rig.firmware.set_origin(math.nan, 8.0, 0.0)
-        rig.take_off(1.0)
-        assert rig.do(192, -1, 1, 0, 0, x=47.0, y=8.0, z=1.0, frame=3).result is Ack.DENIED
-        assert rig.heard("SET_GPS_GLOBAL_ORIGIN")
-        assert rig.firmware.check_item(0, item(1, 16, 47.0, 8.0, 1.0, frame=3)) == 2
-        assert rig.firmware.set_origin(*ZURICH)
-        assert rig.report.origin == ZURICH
-        assert rig.report.ekf_flags == 0x33F
-        assert not rig.report.global_fix
-        assert rig.do(192, -1, 1, 0, 0, x=ZURICH[0], y=ZURICH[1], z=1.5, frame=3).result is Ack.ACCEPTED
-        assert rig.fly(5, lambda rig=rig: rig.off(0.0, 0.0, -1.5) < 0.2)
-        rig.every = None
-        assert rig.fly(4, lambda rig=rig: rig.in_mode("land"))
-        assert not rig.report.health & 0x80

@@ -109,7 +109,7 @@ class Conduct:
             self.activity = Hover(rest.place_ned_m, rest.heading_rad)
         if now.mode == "mission" and self.activity.done and not ardupilot and now.flying:
             self.enter("hold", now_s)
-        tipped = self.vehicle.tipped and abs(now.estimate.velocity_ned_mps[2]) < 0.5
+        tipped = self.vehicle.tipped and math.hypot(*now.estimate.velocity_ned_mps) < 0.5
         self._tipped_s = (self._tipped_s or now_s) if tipped else None
         if self._tipped_s is not None and now_s - self._tipped_s > _CRASH_S:
             self.disarm("Crash: disarming", now_s)
@@ -152,7 +152,7 @@ class Conduct:
         if mode == "return":
             return GoHome()
         if mode == "mission":
-            if self.plans.mission.finished:
+            if now.armed and self.plans.mission.finished:
                 self.plans.mission.restart()
             return MissionRun(self.plans.mission)
         if mode == "offboard":
@@ -178,9 +178,10 @@ class Conduct:
     def enter(self, mode: Mode, now_s: float, custom_mode: int | None = None) -> None:
         """Change the mode; the caller has seen to it that it may be."""
         now = self.now
+        if mode != now.mode:
+            now.speed_mps = None
         now.mode = mode
         now.custom_mode = now.row.modes[mode] if custom_mode is None else custom_mode
-        now.speed_mps = None
         if self.waiting is not None:
             self.news.append((self.waiting[0], Ack.CANCELLED, 0))
             self.waiting = None

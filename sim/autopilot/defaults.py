@@ -26,7 +26,7 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _whole("SYSID_MYGCS", 255, 1, 255),
     _fixed("FRAME_CLASS", 1),
     _whole("ARMING_CHECK", 1, 0, 1 << 22),  # 0: none
-    _real("BATT_ARM_VOLT", 0, 0, 60),
+    _real("BATT_ARM_VOLT", 14.2, 0, 60),
     _real("BATT_LOW_VOLT", 14.0, 0, 60),  # 0: off
     _real("BATT_CRT_VOLT", 13.6, 0, 60),
     _real("BATT_LOW_TIMER", 10, 0, 120),

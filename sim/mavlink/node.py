@@ -119,7 +119,7 @@ class Node:
             self.craft.say(severity, text)
         for seq in self.craft.autopilot.reached():
             self.craft.broadcast(mav.MAVLink_mission_item_reached_message(seq & 0xFFFF))
-        self._commands.step()
+        self._commands.step(now_s)
         self._params.step(now_s)
         self._missions.step(now_s)
         self._camera.step(now_s)

@@ -1,12 +1,18 @@
 """How much memory each process holds, and how long eight of them take to be there.
 
+Beside them stands a bare client: the same libraries and one open session, without a line of this project.
+
 `python -m bench.footprint --json`
 """
 
 import argparse
 import json
 import re
+import subprocess
+import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -14,10 +20,25 @@ from typing import Any
 from bench.lockstep import without_vision
 from console.bring_up import bring_up
 from console.places import free_port, generate_home
+from wire.link import client_config, link_for
+from wire.site import Site
 
 SETTLE_S = 10.0
 LIMIT_MB = {"hub": 100, "sim": 300, "cctv": 150, "robot": 150, "view": 450}
 """What each role's process must stay under, resident. Robots look at pictures here."""
+_BARE = """
+import json, sys
+import msgpack, pydantic, zenoh
+
+class Message(pydantic.BaseModel):
+    stamp_s: float
+
+session = zenoh.open(zenoh.Config.from_json5(sys.argv[1]))
+Message.model_validate(msgpack.unpackb(msgpack.packb({"stamp_s": 0.0})))
+print("ready", flush=True)
+sys.stdin.read()
+"""
+"""A process of the three libraries that every process here stands on, and nothing else: the floor under each."""
 _COUNTED = {"resident_mb": "Rss", "anonymous_mb": "Anonymous", "proportional_mb": "Pss"}
 
 
@@ -65,12 +86,35 @@ def measure_light() -> dict[str, Any]:
         site_file.write_text(without_vision(site_file.read_text()))
         ready = bring_up(site_file, quiet=True)
         try:
-            time.sleep(SETTLE_S)
-            robots = [memory(p.pid) for p in ready.mesh.processes() if p.id.startswith("dog")]
+            with bare_client(ready.site) as bare_pid:
+                time.sleep(SETTLE_S)
+                bare = memory(bare_pid)
+                light = {p.id: memory(p.pid) for p in ready.mesh.processes()}
         finally:
             ready.mesh.stop()
-    most = max(robots, key=lambda robot: robot["resident_mb"])
-    return {"eight_announced_s": round(ready.took_s, 2), "robot_without_vision": most}
+    most = max((light[id] for id in light if id.startswith("dog")), key=lambda robot: robot["resident_mb"])
+    return {
+        "eight_announced_s": round(ready.took_s, 2),
+        "robot_without_vision": most,
+        "bare_client": bare,
+        "light_processes": light,
+    }
+
+
+@contextmanager
+def bare_client(site: Site) -> Iterator[int]:
+    """The process id of a bare client of the site's router."""
+    config = json.dumps(client_config(link_for(site, "console-bare")))
+    with subprocess.Popen(
+        [sys.executable, "-c", _BARE, config], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as child:
+        assert child.stdout is not None
+        if child.stdout.readline().strip() != "ready":
+            raise RuntimeError("the bare client did not reach the router; what it says stands above")
+        try:
+            yield child.pid
+        finally:
+            child.kill()
 
 
 def main() -> None:

@@ -1,7 +1,8 @@
 """How fast simulated time runs through the mesh: the simulator without cameras, six robots without vision at 20 Hz.
 
-Beside it, before and after in the same run, the same exchange of ticks with as many followers that do nothing, through
-the same router: what is over that is the work of this mesh.
+Once with robots that stand and nobody asks for anything, which are the figures at the top; once with robots that are
+sent from room to room by one task after the other. Beside them, before and after in the same run, the same exchange of
+ticks with as many followers that do nothing, through the same router: what is over that is the work of this mesh.
 
 `python -m bench.lockstep --json`
 """
@@ -14,7 +15,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from bench.children import DONE, TICK
-from bench.pace import pace
+from bench.errands import Errands
+from bench.pace import Pace, pace
 from bench.stage import stage
 from console.places import free_port, generate_home
 from wire.clock import followers_of
@@ -37,16 +39,28 @@ def measure() -> dict[str, Any]:
         site_file.write_text(without_vision(site_file.read_text()))
         followers = len(followers_of(load_site(site_file)))
         bare_ms = bare_tick_ms(followers)
-        mesh = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
+        standing = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
+        errands = Errands()
+        site_file.write_text(site_file.read_text().replace('module = "planners"', 'module = "bench.tour"'))
+        driving = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S, meanwhile=errands)
         bare_ms = (bare_ms + bare_tick_ms(followers)) / 2.0
+    at_work = round(errands.robots_at_work(driving.simulated_s), 2)
+    return {
+        "devices": DEVICES,
+        "followers": followers,
+        "bare_tick_ms": bare_ms,
+        **figures(standing, bare_ms),
+        "driving": {"robots_at_work": at_work, "tasks": errands.tasks, **figures(driving, bare_ms)},
+    }
+
+
+def figures(mesh: Pace, bare_ms: float) -> dict[str, Any]:
+    """Of one tick: its length on the wall, beside the bare exchange, and the processor time of every process."""
     tick_ms = 1000.0 * STEP_S / mesh.times_real_time
     cpu_ms = {id: round(1000.0 * STEP_S * share, 3) for id, share in sorted(mesh.cpu_share.items())}
     return {
         "times_real_time": mesh.times_real_time,
-        "devices": DEVICES,
-        "followers": followers,
         "tick_ms": tick_ms,
-        "bare_tick_ms": bare_ms,
         "over_bare": tick_ms / bare_ms,
         "cpu_ms_per_tick": cpu_ms,
         "cpu_ms_per_tick_sum": round(sum(cpu_ms.values()), 3),

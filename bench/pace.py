@@ -2,22 +2,32 @@
 
 import os
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from console.bring_up import bring_up
+from console.bring_up import Ready, bring_up
 from console.client import Client
 from wire.messages.truth import JudgeReply, JudgeRequest
+
+Meanwhile = Callable[[Ready, float], None]
+"""What goes on while a mesh is measured, for so many seconds of the wall."""
+
+
+def look_on(ready: Ready, seconds: float) -> None:
+    """Nobody asks for anything."""
+    time.sleep(seconds)
 
 
 @dataclass(frozen=True)
 class Pace:
     times_real_time: float
+    simulated_s: float
     cpu_share: dict[str, float]
     """Of each process: seconds of processor time for a simulated second. Depends far less than the pace on what else runs."""
 
 
-def pace(site_file: Path, warm_up_s: float, measure_s: float) -> Pace:
+def pace(site_file: Path, warm_up_s: float, measure_s: float, meanwhile: Meanwhile = look_on) -> Pace:
     """Bring the site up, let it run, and compare simulated with wall-clock and processor seconds."""
     ready = bring_up(site_file, quiet=True)
     try:
@@ -26,11 +36,12 @@ def pace(site_file: Path, warm_up_s: float, measure_s: float) -> Pace:
             time.sleep(warm_up_s)
             began, before_s = time.monotonic(), evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
             used_before_s = {id: cpu_s(pid) for id, pid in pids.items()}
-            time.sleep(measure_s)
+            meanwhile(ready, measure_s)
             after_s = evaluator.ask("judge", JudgeRequest(), JudgeReply).sim_s
             passed_s = after_s - before_s
             used_s = {id: cpu_s(pid) - used_before_s[id] for id, pid in pids.items()}
-            return Pace(passed_s / (time.monotonic() - began), {id: used / passed_s for id, used in used_s.items()})
+            wall_s = time.monotonic() - began
+            return Pace(passed_s / wall_s, passed_s, {id: used / passed_s for id, used in used_s.items()})
     finally:
         ready.mesh.stop()
 

@@ -95,6 +95,11 @@ class Device:
         return self._hub_seen_s is not None and now_s - self._hub_seen_s > self._lost_hub_s
 
     @property
+    def at_rest(self) -> bool:
+        """It has no goal, so that nothing is to be done before somebody says something."""
+        return self._job is None and self._waiting is None
+
+    @property
     def goal(self) -> Command | None:
         return self._job.command if self._job else None
 

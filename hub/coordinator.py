@@ -1,7 +1,7 @@
 """The hub's process without its shell: events to the parts, deltas, orders and states out, services answered."""
 
 from collections.abc import Sequence
-from math import hypot
+from math import hypot, inf
 from pathlib import Path
 
 from hub.conductor import Conductor
@@ -98,6 +98,12 @@ class Coordinator:
                 self._voice.show(task)
         self._voice.publish(now_s)
         self.world.upkeep(now_s)
+
+    def rests_until_s(self) -> float:
+        """While nobody moves and no task is open, all that comes can wait."""
+        task = self._conductor.task
+        open_task = task is not None and not task.ended
+        return 0.0 if open_task or self.world.fleet.at_work() else inf
 
     def stop(self) -> None:
         self._journal.close()

@@ -144,6 +144,10 @@ class Fleet:
         """Robots that have not gone away."""
         return [r for r in self.robots.values() if r.present]
 
+    def at_work(self) -> bool:
+        """Whether a robot has a goal or is on its way."""
+        return any(r.goal_id is not None or r.path_m for r in self.here())
+
     def abilities(self) -> dict[str, Ability]:
         return {r.id: r.ability for r in self.here()}
 

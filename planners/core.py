@@ -1,6 +1,7 @@
 """The planner's process without its shell: answers `make_plan`."""
 
 from collections.abc import Sequence
+from math import inf
 
 from planners.planner import PLANNERS, Planner
 from wire.bus import CannotRun, Event, Node, Request
@@ -21,6 +22,10 @@ class PlannerCore:
         for event in events:
             if isinstance(event, Request) and isinstance(event.message, PlanRequest):
                 event.reply(self._planner.make_plan(event.message))
+
+    def rests_until_s(self) -> float:
+        """There is nothing to do but to answer."""
+        return inf
 
     def stop(self) -> None:
         """Nothing is held."""

@@ -5,13 +5,14 @@ outer bearings can meet it; all of these pairs are worked out at once. The range
 physics engine, in a fraction of the time.
 """
 
-from math import pi
+from math import hypot, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.boxes import Box
 from sim.physics import Physics
+from sim.rover import Motion
 
 BEAMS = 120
 HEIGHT_M = 0.25
@@ -30,14 +31,24 @@ class Lidar:
         self._physics = physics
         self._robot = robot
         self._standing = _rows(physics.standing)
+        self._swept: tuple[Motion, list[Box]] | None = None
+        self._ranges_m: tuple[float, ...] = ()
         self._angles: Array = np.asarray(ANGLE_MIN_RAD + ANGLE_STEP_RAD * np.arange(BEAMS), np.float64)
 
     def sweep(self) -> tuple[float, ...]:
         """Ranges in metres, beam k at ANGLE_MIN + k * ANGLE_STEP from straight ahead; 0 where nothing was hit."""
         motion = self._physics.robots[self._robot].motion()
-        rows = np.concatenate((self._standing, _rows(self._physics.moving(self._robot))))
-        ranges = _first_hits(rows, *motion.position_m, motion.yaw_rad, np.asarray(self._angles + motion.yaw_rad))
-        return tuple(np.where(ranges <= RANGE_M, np.round(ranges, 3), 0.0).tolist())
+        near = [box for box in self._physics.moving(self._robot) if _in_range(box, *motion.position_m)]
+        if (motion, near) != self._swept:  # from the same place, among the same things, it would be the same sweep
+            self._swept = (motion, near)
+            rows = np.concatenate((self._standing, _rows(near)))
+            ranges = _first_hits(rows, *motion.position_m, motion.yaw_rad, np.asarray(self._angles + motion.yaw_rad))
+            self._ranges_m = tuple(np.where(ranges <= RANGE_M, np.round(ranges, 3), 0.0).tolist())
+        return self._ranges_m
+
+
+def _in_range(box: Box, x: float, y: float) -> bool:
+    return hypot(box.centre_m[0] - x, box.centre_m[1] - y) - hypot(*box.half_m[:2]) < RANGE_M
 
 
 def _rows(boxes: list[Box]) -> Array:

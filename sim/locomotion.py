@@ -10,6 +10,9 @@ from wire.bus import Node
 from wire.messages.driver import LaserScan, Odometry, VelocityCommand
 
 SCAN_HZ = 5.0
+STANDING_HZ = 5.0
+"""Where a robot stands is told this often, where it moves at every step."""
+STANDS_MPS, STANDS_RADPS = 0.005, 0.01
 
 
 class Locomotion:
@@ -23,6 +26,8 @@ class Locomotion:
         self._drift = Drift(f"{seed}/{robot}/odometry")
         self._step_s = step_s
         self._scan_every = max(1, round(1.0 / (SCAN_HZ * step_s)))
+        self._standing_every = max(1, round(1.0 / (STANDING_HZ * step_s)))
+        self._touched = False
         self._deadline_s = 0.0
         self._seq = {"odometry": 0, "scan": 0}
 
@@ -40,24 +45,16 @@ class Locomotion:
     def publish(self, node: Node, tick: int, now_s: float) -> None:
         """What is due at this tick."""
         self._drift.advance(self._step_s)
-        x, y, yaw_rad = self.estimate()
-        motion = self._rover.motion()
-        node.publish(
-            "odometry",
-            Odometry(
-                robot=self.id,
-                seq=self._next("odometry"),
-                stamp_s=now_s,
-                position_enu_m=(x, y, 0.0),
-                yaw_rad=yaw_rad,
-                speed_mps=motion.speed_mps,
-                yaw_rate_radps=motion.yaw_rate_radps,
-                in_contact=self._physics.in_contact(self.id),
-            ),
-            self.id,
-        )
+        if tick % self._standing_every == 0 or self._moves():
+            node.publish("odometry", self._odometry(now_s), self.id)
         if tick % self._scan_every == 0:
-            node.publish("scan", self._scan(now_s, x, y, yaw_rad), self.id)
+            node.publish("scan", self._scan(now_s), self.id)
+
+    def _moves(self) -> bool:
+        """It goes or turns, is about to, or has come upon something or off it."""
+        motion, touches = self._rover.motion(), self._physics.in_contact(self.id)
+        stands = motion.speed_mps < STANDS_MPS and abs(motion.yaw_rate_radps) < STANDS_RADPS
+        return not stands or self._rover.wish.moves or touches != self._touched
 
     def estimate(self) -> tuple[float, float, float]:
         """Where the robot believes to be: x, y in metres, yaw in (-pi, pi]."""
@@ -66,7 +63,23 @@ class Locomotion:
         yaw_rad = motion.yaw_rad + self._drift.yaw_rad
         return (x + self._drift.x_m, y + self._drift.y_m, atan2(sin(yaw_rad), cos(yaw_rad)))
 
-    def _scan(self, now_s: float, x: float, y: float, yaw_rad: float) -> LaserScan:
+    def _odometry(self, now_s: float) -> Odometry:
+        x, y, yaw_rad = self.estimate()
+        motion = self._rover.motion()
+        self._touched = self._physics.in_contact(self.id)
+        return Odometry(
+            robot=self.id,
+            seq=self._next("odometry"),
+            stamp_s=now_s,
+            position_enu_m=(x, y, 0.0),
+            yaw_rad=yaw_rad,
+            speed_mps=motion.speed_mps,
+            yaw_rate_radps=motion.yaw_rate_radps,
+            in_contact=self._touched,
+        )
+
+    def _scan(self, now_s: float) -> LaserScan:
+        x, y, yaw_rad = self.estimate()
         return LaserScan(
             robot=self.id,
             seq=self._next("scan"),

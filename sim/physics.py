@@ -4,12 +4,13 @@ What rests in or on a receptacle is carried by it and needs no body of its own; 
 until something touches it. The gripper moves things by changing the scene and telling this module.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import atan2
 
 from sim.boxes import Box, body_box, structure_boxes
 from sim.bullet import GRAVITY_MPS2, STEP_S, add_static_boxes, open_bullet
+from sim.flight.quadrotor import Quadrotor
 from sim.legs import legged_rover
 from sim.rover import Rover, one_body_rover
 from sim.scene import Body, Scene, Vec2, Vec3
@@ -43,9 +44,16 @@ def is_furniture(body: Body) -> bool:
 
 
 class Physics:
-    """With `legs` the robots are articulated, at ten times the cost."""
+    """With `legs` the robots are articulated, at ten times the cost. Drones draw their noise from `seed`."""
 
-    def __init__(self, scene: Scene, robots: Sequence[RobotStart], legs: bool = False) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        robots: Sequence[RobotStart],
+        legs: bool = False,
+        drones: Sequence[RobotStart] = (),
+        seed: int = 0,
+    ) -> None:
         self.scene = scene
         self._legs = legs
         self.step_count = 0
@@ -55,10 +63,17 @@ class Physics:
         self.bullet = open_bullet()
         self._last_contact: dict[tuple[str, str], int] = {}
         self._touching: set[str] = set()
+        self._at_rest = False
+        """The last steps have changed nothing."""
         self._loose: dict[int, int] = {}
         self._add_building()
         self.robots = {start.id: self._add_robot(k, start) for k, start in enumerate(robots)}
-        self._names = {rover.body: rover.id for rover in self.robots.values()}
+        self.drones = {
+            start.id: self._add_drone(len(robots) + k, start, seed + 101 * k) for k, start in enumerate(drones)
+        }
+        self.each_step: list[Callable[[float], None]] = []
+        """Called with the time in seconds before every step: what flies decides far more often than a tick comes."""
+        self._names = {body.body: body.id for body in self._all()}
         for key in sorted(scene.bodies):
             self.place(key)
 
@@ -84,31 +99,64 @@ class Physics:
             return legged_rover(self.bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING)
         return one_body_rover(self.bullet, start.id, start.position_m, start.yaw_rad, group, EVERYTHING & ~FLOOR)
 
+    def _all(self) -> list[Rover | Quadrotor]:
+        return [*self.robots.values(), *self.drones.values()]
+
+    def _add_drone(self, index: int, start: RobotStart, seed: int) -> Quadrotor:
+        if FIRST_ROBOT << index > EVERYTHING:
+            raise ValueError(f"{start.id}: one world holds eleven robots and drones, no more")
+        place = (*start.position_m, 0.0)
+        return Quadrotor(self.bullet, start.id, place, start.yaw_rad, seed, FIRST_ROBOT << index, EVERYTHING)
+
     # Time
 
     def advance(self, steps: int) -> None:
-        """Let `steps` physics steps of 1/240 s pass."""
+        """Let `steps` physics steps of 1/240 s pass. Where they have changed nothing, and nobody is asked to move, they
+        change nothing again."""
         rovers = tuple(self.robots.values())
+        if self._at_rest and not any(rover.wish.moves for rover in rovers):
+            self.step_count += steps
+        else:
+            before = self._states()
+            self._step(rovers, steps)
+            self._at_rest = (
+                not (self._legs or self._touching or self.drones) and self._states() == before and self._loose_asleep()
+            )
+        for rover in rovers:
+            rover.tilt(steps * STEP_S)
+
+    def _step(self, rovers: Sequence[Rover], steps: int) -> None:
         for _ in range(steps):
             if self.step_count % PUSH_EVERY == 0:
                 self._count_contacts()
                 for rover in rovers:
                     rover.push(STEP_S, PUSH_EVERY, GRAVITY_MPS2)
+            if self.drones:
+                self._fly(self.step_count * STEP_S)
             self.bullet.stepSimulation()
             self.step_count += 1
         for rover in rovers:
             rover.moved_on()
-            rover.tilt(steps * STEP_S)
         self._follow_loose()
+
+    def _fly(self, now_s: float) -> None:
+        for decide in self.each_step:
+            decide(now_s)
+        for drone in self.drones.values():
+            drone.before_step(now_s)
+
+    def _states(self) -> list[object]:
+        """Of the robots, to the last bit."""
+        return [rover.state() for rover in self.robots.values()]
 
     def _count_contacts(self) -> None:
         self._touching.clear()
-        for rover in self.robots.values():
-            for contact in self.bullet.getContactPoints(rover.body):
-                other = contact[2] if contact[1] == rover.body else contact[1]
+        for robot in self._all():
+            for contact in self.bullet.getContactPoints(robot.body):
+                other = contact[2] if contact[1] == robot.body else contact[1]
                 if contact[8] <= CONTACT_M and other != self._floor:
-                    self._touching.add(rover.id)
-                    self._note_contact(rover.id, other)
+                    self._touching.add(robot.id)
+                    self._note_contact(robot.id, other)
 
     def _note_contact(self, robot: str, other: int) -> None:
         if other in self._loose.values():
@@ -128,6 +176,7 @@ class Physics:
 
     def place(self, key: int) -> None:
         """Make the physics agree with the scene about one thing that was taken, put or lies on the floor."""
+        self._at_rest = False
         body = self.scene.bodies[key]
         lies = body.parent is None and body.held_by is None and not body.gone
         if is_furniture(body) or not lies:
@@ -171,14 +220,22 @@ class Physics:
 
     def awake_count(self) -> int:
         """How many bodies the solver is busy with."""
-        speeds = (self.bullet.getBaseVelocity(b) for b in self._loose.values())
-        return len(self.robots) + sum(any(linear) or any(angular) for linear, angular in speeds)
+        return len(self.robots) + sum(self._loose_speeds())
+
+    def _loose_asleep(self) -> bool:
+        return not any(self._loose_speeds())
+
+    def _loose_speeds(self) -> Iterator[bool]:
+        """Whether each loose thing moves."""
+        for loose in self._loose.values():
+            linear, angular = self.bullet.getBaseVelocity(loose)
+            yield any(linear) or any(angular)
 
     # What else there is
 
     def moving(self, robot: str) -> list[Box]:
         """Boxes of the other robots and of what lies on the floor."""
-        others = [rover.box() for id, rover in self.robots.items() if id != robot]
+        others = [other.box() for other in self._all() if other.id != robot]
         return others + [body_box(self.scene.bodies[key]) for key in self._loose]
 
     def cast(self, robot: str, starts_m: Sequence[Vec3], ends_m: Sequence[Vec3]) -> list[float]:

@@ -45,6 +45,11 @@ class Wish:
     yaw_rate_radps: float = 0.0
     tilt_down_rad: float = 0.3
 
+    @property
+    def moves(self) -> bool:
+        """Whether the body is asked to move; the camera's tilt does not matter."""
+        return bool(self.forward_mps or self.left_mps or self.yaw_rate_radps)
+
 
 class Rover:
     """A body in the physics that follows a wish."""
@@ -99,6 +104,10 @@ class Rover:
                 (position[0], position[1]), 2.0 * atan2(turn[2], turn[3]), hypot(linear[0], linear[1]), angular[2]
             )
         return self._motion
+
+    def state(self) -> object:
+        """Equal before and after some steps when they have not moved the body at all."""
+        return (self._bullet.getBasePositionAndOrientation(self.body), self._bullet.getBaseVelocity(self.body))
 
     def moved_on(self) -> None:
         """The physics has taken steps."""

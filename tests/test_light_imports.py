@@ -19,6 +19,7 @@ MAY_IMPORT = {
     "wire.recorder": set(),
     "hub": {"numpy"},
     "planners": {"lark", "rapidfuzz"},
+    "devices.quadruped": set(),
     "hub.view": {"numpy", "rerun", "pyarrow"},
     "sim": {"numpy", "cv2", "pybullet", "moderngl"},
 }
@@ -45,6 +46,26 @@ def imports_heavy(module: str) -> set[str]:
 @pytest.mark.parametrize("module", sorted(MAY_IMPORT))
 def test_a_role_imports_only_what_it_needs(module: str) -> None:
     assert imports_heavy(module) <= MAY_IMPORT[module]
+
+
+def test_a_robot_without_vision_is_built_without_numpy(tmp_path: Path) -> None:
+    """And walks without it: its map takes in a sweep, and it finds a place to stand and a way there."""
+    code = f"""
+import sys
+from pathlib import Path
+from devices.quadruped import path, places
+from devices.quadruped.__main__ import build
+from devices.quadruped.map import FloorMap
+from wire.site import load_site
+site = load_site(Path("deploy/sites/home.toml"))
+build(site, site.robot[0].id, Path(r"{tmp_path}") / "goals.sqlite", no_vision=True).stop()
+floor, here = FloorMap(site), site.robot[0].start_m
+floor.mark([(here[0] + 0.9, here[1])], 0.0)
+assert path.search(floor, path.prices(floor, here), here, places.near_point(floor, here))
+print("numpy" in sys.modules)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    assert done.stdout == "False\n", done.stderr
 
 
 @pytest.mark.parametrize("device", DEVICES)

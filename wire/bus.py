@@ -7,7 +7,7 @@ clock's owner sent up to tick n and what everybody else sent before tick n: the 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from wire.model import Message
 
@@ -98,3 +98,12 @@ class Core(Protocol):
 
     def stop(self) -> None:
         """Release what `start` took."""
+
+
+@runtime_checkable
+class Resting(Protocol):
+    """What a core may say besides, so that lockstep goes on without it while it has nothing to do."""
+
+    def rests_until_s(self) -> float:
+        """Seconds on the mesh's clock, as of the last step: what comes until then can wait until then. A time that is
+        past asks for every tick, and no rest is longer than `wire.clock.LONGEST_REST_S`."""

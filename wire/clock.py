@@ -2,12 +2,14 @@
 
 import time
 from collections.abc import Iterable
+from math import ceil, floor
 
-from wire.keys import Role
+from wire.bus import Core, Resting
+from wire.keys import FOLLOWERS
 from wire.site import Site
 
-FOLLOWER_ROLES: frozenset[Role] = frozenset(("hub", "planner", "cctv", "robot"))
-"""Who decides something holds time up; who only looks on does not."""
+LONGEST_REST_S = 0.2
+"""Whoever rests hears after this at the latest what was said to it."""
 LATE_S = 1.0
 """Behind by more than this, the pace is taken up anew instead of being caught up with."""
 
@@ -28,18 +30,28 @@ def boot_id(first_step_s: float) -> str:
     return f"{first_step_s:.6f}"
 
 
+def next_turn(core: Core, beat_due_s: float, tick: int, now_s: float, step_s: float) -> int:
+    """The tick in which a core that has just stepped at `now_s` steps next; a heartbeat that is due ends a rest."""
+    if not isinstance(core, Resting):
+        return tick + 1
+    rest_s = min(core.rests_until_s() - now_s, beat_due_s - now_s, LONGEST_REST_S)
+    wanted = ceil(max(rest_s, 0.0) / step_s - 1e-6)
+    return tick + max(1, min(wanted, floor(LONGEST_REST_S / step_s + 1e-6)))
+
+
 class Roll:
-    """Which followers are there, and which of them still owe their answer to the newest tick."""
+    """Which followers are there, whose turn it is, and who still owes the answer to the newest tick."""
 
     def __init__(self, followers: Iterable[str]) -> None:
         self._followers = frozenset(followers)
-        self._present: set[str] = set()
+        self._turns: dict[str, int] = {}
+        """Of those who are there: the tick of the next turn."""
         self._waiting: set[str] = set()
         self._tick = -1
 
     @property
     def absent(self) -> list[str]:
-        return sorted(self._followers - self._present)
+        return sorted(self._followers - self._turns.keys())
 
     @property
     def waiting(self) -> list[str]:
@@ -48,24 +60,27 @@ class Roll:
     @property
     def deserted(self) -> bool:
         """There should be followers, and none is there: time stands still."""
-        return bool(self._followers) and not self._present
+        return bool(self._followers) and not self._turns
 
     def presence(self, process: str, alive: bool) -> None:
         if process not in self._followers:
             return
         if alive:
-            self._present.add(process)  # joins with the next tick
+            self._turns.setdefault(process, 0)  # joins with the next tick
         else:
-            self._present.discard(process)
+            self._turns.pop(process, None)
             self._waiting.discard(process)
 
-    def begin(self, tick: int) -> None:
+    def begin(self, tick: int) -> list[str]:
+        """Those whose turn it is, and who are waited for from now on."""
         self._tick = tick
-        self._waiting = set(self._present)
+        self._waiting = {follower for follower, turn in self._turns.items() if turn <= tick}
+        return self.waiting
 
-    def done(self, follower: str, tick: int) -> None:
-        if tick == self._tick:
+    def done(self, follower: str, tick: int, next_turn: int = 0) -> None:
+        if tick == self._tick and follower in self._waiting:
             self._waiting.discard(follower)
+            self._turns[follower] = next_turn
 
 
 class Pace:
@@ -89,7 +104,7 @@ class Pace:
 
 def followers_of(site: Site) -> list[str]:
     """The processes that are expected to follow the clock."""
-    return [p.id for p in site.process if p.role in FOLLOWER_ROLES and p.autostart]
+    return [p.id for p in site.process if p.role in FOLLOWERS and p.autostart]
 
 
 def owner_of(site: Site) -> str:

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterable
 
 from wire.bus import Core, Event, Received
-from wire.clock import Pace, Roll, WallClock, boot_id
+from wire.clock import Pace, Roll, WallClock, boot_id, next_turn
 from wire.codec import WireError, decode
 from wire.letter import Kind, Letter
 from wire.messages.clock import Tick, TickDone
@@ -53,8 +53,8 @@ def drive_spectator(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stoppin
 
 
 def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping) -> None:
-    """One step per tick, then say that it is done."""
-    node.subscribe("tick")
+    """One step per turn, then say that it is done, and until when nothing is to be done."""
+    node.subscribe("turn", node.id)
     core.start(node)
     node.announce()
     while not stopping():
@@ -66,13 +66,14 @@ def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping
         node.boot_id = node.boot_id or boot_id(tick.now_s)
         core.step(tick.now_s, node.mailbox.at_tick(tick.tick, tick.now_s))
         pulse.beat(tick.now_s)
-        node.publish("tick_done", TickDone(tick=tick.tick, follower=node.id), node.id)
+        turn = next_turn(core, pulse.due_s, tick.tick, tick.now_s, tick.step_s)
+        node.publish("tick_done", TickDone(tick=tick.tick, follower=node.id, next_turn=turn), node.id)
 
 
 def drive_owner(
     node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float, speed: float, followers: Iterable[str]
 ) -> None:
-    """Step, tell the tick, and wait until every follower that is there is done with it."""
+    """Step, tell the tick, and wait until every follower whose turn it is has stepped, too."""
     roll, pace = Roll(followers), Pace(speed)
     node.subscribe("tick_done")
     node.track_presence()
@@ -85,8 +86,10 @@ def drive_owner(
         node.tick, node.now_s = tick, tick * step_s
         core.step(node.now_s, node.mailbox.at_tick(tick, node.now_s))
         pulse.beat(node.now_s)
-        roll.begin(tick)
-        node.publish("tick", Tick(tick=tick, now_s=node.now_s, step_s=step_s))
+        news = Tick(tick=tick, now_s=node.now_s, step_s=step_s)
+        node.publish("tick", news)
+        for follower in roll.begin(tick):
+            node.publish("turn", news, follower)
         _wait_for(node, roll, stopping)
         tick += 1
         _keep_pace(node, roll, pace, tick * step_s)
@@ -99,6 +102,15 @@ def _pick_up(node: ZenohNode, timeout_s: float = 0.0) -> list[Letter]:
     node.mailbox.hold(letter for letter in letters if node.watching or letter.kind is not Kind.PRESENCE)
     node.mailbox.hold(node.shelf.fetch())
     return presence
+
+
+def _next_turn_in(node: ZenohNode, answer: Letter) -> int:
+    """Whoever answers in a way that is not understood is asked in every tick."""
+    try:
+        return decode(TickDone, answer.payload, answer.name).next_turn
+    except WireError as error:
+        node.mailbox.warn(str(error))
+        return 0
 
 
 def _newest_tick(node: ZenohNode, letters: Iterable[Letter]) -> Tick | None:
@@ -132,7 +144,7 @@ def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
     while (roll.waiting or roll.deserted) and not stopping():
         answers = node.shelf.wait()
         for letter in answers:
-            roll.done(letter.id, letter.tick)
+            roll.done(letter.id, letter.tick, _next_turn_in(node, letter))
         if answers:
             continue
         _call_roll(node, roll)

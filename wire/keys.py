@@ -13,6 +13,8 @@ from wire.model import Message
 Role = Literal["hub", "planner", "cctv", "robot", "sim", "view", "console", "evaluator"]
 ROLES: tuple[Role, ...] = ("hub", "planner", "cctv", "robot", "sim", "view", "console", "evaluator")
 EVERYONE: tuple[Role, ...] = ROLES
+FOLLOWERS: tuple[Role, ...] = ("hub", "planner", "cctv", "robot")
+"""Who decides something holds time up in lockstep; who only looks on does not."""
 
 Delivery = Literal["every", "latest"]
 """every: blocks rather than drops, in order. latest: a slow reader sees the newest only."""
@@ -50,9 +52,11 @@ class Service:
 # fmt: off
 TOPICS: tuple[Topic, ...] = (
     Topic("tick", "clock/tick", clock.Tick, "every", 20.0,
-          ("sim",), EVERYONE, "simulated time moves one step"),
+          ("sim",), ("view", "console", "evaluator"), "simulated time moves one step: for those who look on"),
+    Topic("turn", "clock/turn/{id}", clock.Tick, "every", 20.0,
+          ("sim",), FOLLOWERS, "simulated time has moved on, and this follower is waited for"),
     Topic("tick_done", "clock/done/{id}", clock.TickDone, "every", 20.0,
-          EVERYONE, ("sim",), "a follower is through with a step"),
+          FOLLOWERS, ("sim",), "a follower is through with a step"),
     Topic("health", "health/{id}", clock.Health, "latest", 2.0,
           EVERYONE, ("hub", "robot", "view", "console"), "a process's deciding loop is alive"),
     Topic("frame", "camera/{id}/image", driver.CameraFrame, "latest", 2.0,

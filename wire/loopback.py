@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from wire.bus import Core, Reply
-from wire.clock import boot_id
+from wire.clock import boot_id, next_turn
 from wire.codec import encode
 from wire.keys import PRESENCE_PATH, Role
 from wire.letter import NO_TICK, Kind, Letter
@@ -79,6 +79,8 @@ class _Member:
     core: Core
     pulse: Pulse
     owner: bool
+    turn: int = 0
+    """The tick in which it steps next."""
 
 
 class LoopbackMesh:
@@ -112,14 +114,17 @@ class LoopbackMesh:
         self._announce(id, alive=False)
 
     def tick(self) -> None:
-        """One step of every process."""
+        """One step of every process whose turn it is."""
         self._start_arrivals()
         self._tick += 1
         for id in sorted(self._members, key=lambda id: (not self._members[id].owner, id)):
             member = self._members[id]
+            if member.turn > self._tick:
+                continue
             member.node.boot_id = member.node.boot_id or boot_id(self.now_s)
             member.core.step(self.now_s, member.node.mailbox.at_tick(self._tick, self.now_s))
             member.pulse.beat(self.now_s)
+            member.turn = next_turn(member.core, member.pulse.due_s, self._tick, self.now_s, self._step_s)
 
     def run(self, seconds: float) -> None:
         for _ in range(round(seconds / self._step_s)):

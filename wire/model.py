@@ -21,6 +21,9 @@ Stamp = Annotated[float, Field(ge=0.0)]
 
 
 class Message(BaseModel):
-    """A value on the wire. Validation is strict: no coercion of strings to numbers, no extra fields."""
+    """A value on the wire. Validation is strict: no coercion of strings to numbers, no extra fields.
 
-    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+    What checks a message is built when the first one comes: every process knows all of them and few see more than a few.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False, defer_build=True)

@@ -30,7 +30,7 @@ SWITCH_S = 0.0005
 FETCHED_AT_ONCE = 65_536
 """So many messages of one subscription may lie ready until they are fetched; then the link is held back."""
 BIG_BYTES = 20_000
-CLOCK_TOPICS = frozenset(("tick", "tick_done"))
+CLOCK_TOPICS = frozenset(("turn", "tick", "tick_done"))
 """Their messages wake the loop in lockstep; all others lie ready until then."""
 _REMOTE = zenoh.Locality.REMOTE
 _BLOCK, _DROP = zenoh.CongestionControl.BLOCK, zenoh.CongestionControl.DROP

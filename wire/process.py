@@ -19,10 +19,10 @@ from types import FrameType, TracebackType
 from typing import NoReturn
 
 from wire.bus import CannotRun, Core
-from wire.clock import FOLLOWER_ROLES, followers_of, owner_of
+from wire.clock import followers_of, owner_of
 from wire.drive import drive_follower, drive_owner, drive_spectator, drive_wall
 from wire.footprint import limit_arenas, release_startup_memory, settling
-from wire.keys import ROLES, Role
+from wire.keys import FOLLOWERS, ROLES, Role
 from wire.link import MeshError, link_for
 from wire.node import ZenohNode
 from wire.pulse import Pulse
@@ -94,7 +94,7 @@ def main(
 def run(site: Site, process: str, role: Role, core: Core, stopping: Callable[[], bool]) -> None:
     """Step the core on the mesh until `stopping`; then stop it and leave the mesh."""
     owner = owner_of(site)
-    leads, follows = process == owner, bool(owner) and role in FOLLOWER_ROLES
+    leads, follows = process == owner, bool(owner) and role in FOLLOWERS
     with ZenohNode(link_for(site, process), process, role, leads or follows, owner) as node:
         release_startup_memory()
         stopping = settling(stopping)

@@ -18,6 +18,11 @@ class Pulse:
         self._due_s = 0.0
         self._last_s: float | None = None
 
+    @property
+    def due_s(self) -> float:
+        """When the next beat is due."""
+        return self._due_s
+
     def beat(self, now_s: float, mode: Mode = "ready") -> None:
         """Called once in every pass of the loop. `loop_age_ms` is the time between the last two passes."""
         age_s = 0.0 if self._last_s is None else max(0.0, now_s - self._last_s)

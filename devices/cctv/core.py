@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Sequence
 from functools import partial
+from math import inf
 from typing import Protocol
 
 from devices.vision.changes import describe
@@ -48,6 +49,7 @@ class CctvCore:
         self._view = floor_view(self._lens, site.wall, site.door)
         self._tracker = Tracker()
         self._looked_s: float | None = None
+        self._now_s = 0.0
         self._seq = self._frame_seq = self._line_seq = 0
 
     def start(self, node: Node) -> None:
@@ -60,6 +62,7 @@ class CctvCore:
             self._pictures.start()
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
+        self._now_s = now_s
         newest = None
         for event in events:
             match event:
@@ -75,6 +78,11 @@ class CctvCore:
         for seen in self._looks.due(now_s):
             if seen is not None:
                 self._report(seen)
+
+    def rests_until_s(self) -> float:
+        """The next picture is expected a period after the last one; when one is late, there is nothing to expect."""
+        expected_s = inf if self._looked_s is None else self._looked_s + 1.0 / self._camera.picture_hz
+        return min(expected_s if expected_s > self._now_s else inf, self._looks.next_due_s)
 
     def stop(self) -> None:
         self._looks.close()

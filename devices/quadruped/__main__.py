@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="where goals are remembered; <id>.sqlite in the state folder of the site by default",
     )
-    parser.add_argument("--no-vision", action="store_true", help="walk by the lidar only; saves 90 MB")
+    parser.add_argument("--no-vision", action="store_true", help="walk by the lidar only; saves 65 MB")
 
 
 def build(site: Site, process_id: str, journal: Path | None = None, no_vision: bool = False) -> QuadrupedCore:

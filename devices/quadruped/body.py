@@ -2,9 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable
-from math import hypot
-
-import numpy as np
+from math import cos, hypot, sin
 
 from devices.quadruped.look import Look
 from devices.quadruped.map import FloorMap
@@ -16,6 +14,8 @@ from wire.model import Message, Vec2, Vec3
 
 COUNTED_M = 0.04
 """Smaller moves are the odometry's noise and not travelled."""
+STANDS_MPS = 0.02
+"""What is slower stands."""
 TILT_STEP_RAD = 0.1
 """A smaller change of the camera's tilt is no action of its own."""
 WALK_TILT_RAD = 0.45
@@ -96,6 +96,13 @@ class Body:
         return self.order is None or self.order.go or self.order.step_aside_m is not None
 
     @property
+    def at_rest(self) -> bool:
+        """It stands, and neither what is asked of it nor an order to step aside is going to move it."""
+        asked = self._forward_mps or self._left_mps or self._yaw_rate_radps or self._pending or self._awaited
+        ordered = self.order is not None and self.order.step_aside_m is not None
+        return not asked and not ordered and self.odometry is not None and self.odometry.speed_mps < STANDS_MPS
+
+    @property
     def gripping(self) -> bool:
         """The gripper is at work and its outcome not known yet."""
         return self._awaited is not None
@@ -113,11 +120,13 @@ class Body:
         """Free length in front of the body, as the last sweep saw it."""
         if self.scan is None:
             return BUMPER_M
-        ranges = np.array(self.scan.ranges_m)
-        angles = self.scan.angle_min_rad + self.scan.angle_step_rad * np.arange(len(ranges))
-        ahead, aside = ranges * np.cos(angles), ranges * np.sin(angles)
-        in_way = (ranges > 0.0) & (np.abs(aside) < BODY_HALF_WIDTH_M) & (ahead > 0.0)
-        return float(ahead[in_way].min(initial=self.scan.range_max_m)) - BODY_FRONT_M
+        nearest_m = self.scan.range_max_m
+        for k, range_m in enumerate(self.scan.ranges_m):
+            angle_rad = self.scan.angle_min_rad + self.scan.angle_step_rad * k
+            ahead_m = range_m * cos(angle_rad)
+            if 0.0 < ahead_m < nearest_m and abs(range_m * sin(angle_rad)) < BODY_HALF_WIDTH_M:
+                nearest_m = ahead_m
+        return nearest_m - BODY_FRONT_M
 
     # What is asked of it
 
@@ -175,8 +184,7 @@ class Body:
             return
         front: Iterable[Vec3] = ((BODY_FRONT_M + 0.07, side, 0.0) for side in (-0.15, 0.0, 0.15))
         here = (*self.position_m, 0.0)
-        points = np.array([body_to_enu(point, here, self.yaw_rad)[:2] for point in front])
-        self.floor.mark(points, self.now_s, TOUCH_WEIGHT)
+        self.floor.mark([body_to_enu(point, here, self.yaw_rad)[:2] for point in front], self.now_s, TOUCH_WEIGHT)
 
     def _count(self) -> None:
         if self._counted_m is None:

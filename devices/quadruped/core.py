@@ -74,6 +74,10 @@ class QuadrupedCore:
             look = partial(self._eyes.look, message, self._body.holding, self._node.boot_id)
             self._looks.begin(now_s, look)
 
+    def rests_until_s(self) -> float:
+        """Whoever moves or has a goal steps in every tick."""
+        return self._looks.next_due_s if self._device.at_rest and self._body.at_rest else 0.0
+
     def stop(self) -> None:
         self._looks.close()
         self._body.stand()

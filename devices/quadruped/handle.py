@@ -7,7 +7,7 @@ from math import inf
 from devices.quadruped import places
 from devices.quadruped.body import WALK_TILT_RAD, Body
 from devices.quadruped.gaze import look_around, look_at
-from devices.quadruped.map import Cell
+from devices.quadruped.grid import Cell
 from devices.quadruped.moves import Skilled
 from devices.quadruped.reasons import code_of
 from devices.quadruped.robot import Robot

@@ -1,17 +1,22 @@
 """What one picture told the robot, in the terms of its skills. No perception here, so that skills need none."""
 
 from dataclasses import dataclass, field
-from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from wire.frames import distance_m
 from wire.messages.driver import CameraFrame
 from wire.messages.observation import ObservationBatch
 from wire.model import Vec2, Vec3
 
-Points = NDArray[np.float32]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+Points: TypeAlias = "NDArray[np.float32]"
+CLEAR_VIEW = 0.75
+"""At the sides of a picture things are cut off."""
+FAR_M, FAR_FOR_SMALL_M = 3.0, 2.2
+"""Small things further off are a few pixels, which the detector often misses."""
 
 
 @dataclass(frozen=True)

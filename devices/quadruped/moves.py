@@ -5,7 +5,7 @@ from collections.abc import Generator
 from pydantic import model_validator
 
 from devices.quadruped import places
-from devices.quadruped.map import Cell
+from devices.quadruped.grid import Cell
 from devices.quadruped.robot import Robot
 from devices.quadruped.walk import await_odometry, face_point, walk
 from devices.worker import Outcome

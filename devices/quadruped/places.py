@@ -1,11 +1,11 @@
 """Where to stand: cells from which a place is reached or a thing can be worked on, with what each costs extra."""
 
-from collections.abc import Mapping
-from math import inf
+from collections.abc import Iterable, Mapping
+from math import dist, inf
+from operator import itemgetter
 
-import numpy as np
-
-from devices.quadruped.map import Cell, FloorMap, Grid, Mask
+from devices.quadruped.grid import Cell
+from devices.quadruped.map import FloorMap
 from devices.quadruped.path import NEEDED_M
 from wire.catalogue import catalogue
 from wire.frames import distance_m
@@ -28,28 +28,33 @@ MOST_PLACES = 400
 
 def near_point(floor: FloorMap, point_m: Vec2) -> Mapping[Cell, float]:
     """As near to a point as the robot can stand."""
-    away = floor.distance_m(point_m)
-    free = floor.clearance_m >= NEEDED_M
-    slack = max(POINT_SLACK_M, float(away[free].min()) + 0.2) if free.any() else POINT_SLACK_M
-    return _cells(floor, free & (away < slack), POINT_PRICE * away)
+    free = [(cell, dist(floor.centre_m(cell), point_m)) for cell in _standing(floor)]
+    slack_m = max(POINT_SLACK_M, min((away_m for _, away_m in free), default=0.0) + 0.2)
+    return _cheapest((cell, POINT_PRICE * away_m) for cell, away_m in free if away_m < slack_m)
 
 
 def in_room(floor: FloorMap, room: Room, doors: tuple[Door, ...]) -> Mapping[Cell, float]:
     """Inside a room, out of its doorways."""
-    price = np.zeros_like(floor.walls_m)
+    inside = floor.inside(room.polygon_m)
+    price = {cell: 0.0 for cell in _standing(floor) if inside[cell]}
     for door in doors:
         middle = ((door.start_m[0] + door.end_m[0]) / 2.0, (door.start_m[1] + door.end_m[1]) / 2.0)
-        price += DOORWAY_PRICE * np.maximum(DOORWAY_M - floor.distance_m(middle), 0.0)
-    inside = floor.inside(room.polygon_m) & (floor.clearance_m >= NEEDED_M)
-    return _cells(floor, inside & (price <= float(price[inside].min(initial=np.inf)) + DOORWAY_PRICE), price)
+        for cell, away_m in floor.around(middle, DOORWAY_M):
+            if cell in price:
+                price[cell] += DOORWAY_PRICE * (DOORWAY_M - away_m)
+    most = min(price.values(), default=inf) + DOORWAY_PRICE
+    return _cheapest((cell, extra) for cell, extra in price.items() if extra <= most)
 
 
 def away_from(floor: FloorMap, others_m: tuple[Vec2, ...]) -> Mapping[Cell, float]:
     """Anywhere out of the way of others, the further from them the better."""
-    away = np.full_like(floor.walls_m, REFUGE_M)
-    for other_m in others_m:
-        away = np.minimum(away, floor.distance_m(other_m))
-    return _cells(floor, (floor.clearance_m >= NEEDED_M) & (away >= REFUGE_LEAST_M), REFUGE_PRICE * (REFUGE_M - away))
+    price: dict[Cell, float] = {}
+    for cell in _standing(floor):
+        centre_m = floor.centre_m(cell)
+        away_m = min(REFUGE_M, *(dist(centre_m, other_m) for other_m in others_m))
+        if away_m >= REFUGE_LEAST_M:
+            price[cell] = REFUGE_PRICE * (REFUGE_M - away_m)
+    return _cheapest(price.items())
 
 
 def beside(
@@ -62,12 +67,15 @@ def beside(
     farthest_m: float = inf,
 ) -> Mapping[Cell, float]:
     """In reach of a thing and in sight of it, at a comfortable distance; not where it was tried from before."""
-    away, half = floor.distance_m(point_m), half_width_m(type)
-    closest_m = half + SWING_M if door_swings else 0.0
-    fits = (floor.clearance_m >= NEEDED_M) & (away <= min(REACH_M + half, farthest_m)) & (away >= closest_m)
-    price: Grid = (COMFORT_PRICE * np.abs(away - half - COMFORT_M)).astype(np.float32)
-    price += np.where(away > REACH_M + half - REACH_SPARE_M, FAR_PRICE, 0.0)
-    return _facing(floor, fits, price, point_m, room, not_from_m)
+    half_m, clearance_m = half_width_m(type), floor.clearance_m
+    closest_m = half_m + SWING_M if door_swings else 0.0
+    price = {
+        cell: COMFORT_PRICE * abs(away_m - half_m - COMFORT_M)
+        + (FAR_PRICE if away_m > REACH_M + half_m - REACH_SPARE_M else 0.0)
+        for cell, away_m in floor.around(point_m, min(REACH_M + half_m, farthest_m))
+        if away_m >= closest_m and clearance_m[cell] >= NEEDED_M
+    }
+    return _facing(floor, price, point_m, room, not_from_m)
 
 
 def in_view(
@@ -78,20 +86,23 @@ def in_view(
     not_from_m: tuple[Vec2, ...] = (),
 ) -> Mapping[Cell, float]:
     """At a distance from which a thing is seen well; not near where it was not seen from."""
-    away = floor.distance_m(point_m)
-    ring = (floor.clearance_m >= NEEDED_M) & (away >= between_m[0]) & (away <= between_m[1])
-    return _facing(floor, ring, np.zeros_like(away), point_m, room, not_from_m)
+    (nearest_m, farthest_m), clearance_m = between_m, floor.clearance_m
+    ring = (cell for cell, away_m in floor.around(point_m, farthest_m) if away_m >= nearest_m)
+    price = {cell: 0.0 for cell in ring if clearance_m[cell] >= NEEDED_M}
+    return _facing(floor, price, point_m, room, not_from_m)
 
 
 def _facing(
-    floor: FloorMap, chosen: Mask, price: Grid, point_m: Vec2, room: Room | None, not_from_m: tuple[Vec2, ...]
+    floor: FloorMap, price: dict[Cell, float], point_m: Vec2, room: Room | None, not_from_m: tuple[Vec2, ...]
 ) -> Mapping[Cell, float]:
     """Those cells that no wall parts from the thing, in its own room where that is known and has any."""
     for tried_m in not_from_m:
-        chosen = chosen & (floor.distance_m(tried_m) > OTHER_SIDE_M)
-    if room is not None and (inside := chosen & floor.inside(room.polygon_m)).any():
-        chosen = inside
-    cells = _cells(floor, chosen, price)
+        for cell, _ in floor.around(tried_m, OTHER_SIDE_M):
+            price.pop(cell, None)
+    if room is not None:
+        inside = floor.inside(room.polygon_m)
+        price = {cell: extra for cell, extra in price.items() if inside[cell]} or price
+    cells = _cheapest(price.items())
     return {cell: extra for cell, extra in cells.items() if floor.clear_of_walls(floor.centre_m(cell), point_m)}
 
 
@@ -106,9 +117,11 @@ def half_width_m(type: str) -> float:
     return min(row.size_m[0], row.size_m[1]) / 2.0 if row else 0.0
 
 
-def _cells(floor: FloorMap, chosen: Mask, price: Grid) -> Mapping[Cell, float]:
-    """The chosen cells and their prices, the cheapest first and not too many."""
-    rows, columns = np.nonzero(chosen)
-    extra = price[rows, columns]
-    order = np.argsort(extra, kind="stable")[:MOST_PLACES]
-    return {Cell(int(rows[i]), int(columns[i])): float(extra[i]) for i in order}
+def _standing(floor: FloorMap) -> list[Cell]:
+    """Where the robot fits."""
+    return [cell for cell, gap_m in enumerate(floor.clearance_m) if gap_m >= NEEDED_M]
+
+
+def _cheapest(prices: Iterable[tuple[Cell, float]]) -> Mapping[Cell, float]:
+    """The cells and their prices, the cheapest first and not too many."""
+    return dict(sorted(prices, key=itemgetter(1))[:MOST_PLACES])

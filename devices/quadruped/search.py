@@ -6,11 +6,10 @@ from math import pi
 from typing import TypeVar
 
 from devices.quadruped import places
-from devices.quadruped.coverage import CLEAR_VIEW, FAR_FOR_SMALL_M, FAR_M, Coverage
 from devices.quadruped.gaze import look_around, look_at, take_pictures
+from devices.quadruped.grid import Cell
 from devices.quadruped.handle import GATE_M
-from devices.quadruped.look import Thing
-from devices.quadruped.map import Cell
+from devices.quadruped.look import CLEAR_VIEW, FAR_FOR_SMALL_M, FAR_M, Thing
 from devices.quadruped.moves import Skilled
 from devices.quadruped.robot import Robot
 from devices.quadruped.walk import Walked, await_odometry, face, walk
@@ -50,6 +49,8 @@ class Finder:
     def __init__(self, robot: Robot, room: Room, looking_for: tuple[str, ...]) -> None:
         self._body, self._looking_for = robot.body, looking_for
         self._inside = robot.body.floor.inside(room.polygon_m)
+        from devices.quadruped.coverage import Coverage  # numpy, which a robot without a camera does without
+
         far_m = FAR_FOR_SMALL_M if any(_is_small(type) for type in looking_for) else FAR_M
         self.coverage = Coverage(robot.body.floor, room.polygon_m, far_m)
         self._candidates: list[Thing] = []
@@ -73,8 +74,7 @@ class Finder:
 
     def inside(self, point_m: Vec2) -> bool:
         """Whether a point lies in the room."""
-        cell = self._body.floor.cell(point_m)
-        return bool(self._inside[cell.row, cell.column])
+        return bool(self._inside[self._body.floor.cell(point_m)])
 
     def _take_in(self) -> None:
         for look in self._body.looks:

@@ -17,9 +17,8 @@ OTHER_GAP_M, AHEAD_M, NEARER_M = 0.80, 0.4, 0.05
 
 def room_at(body: Body, point_m: Vec2) -> float:
     """From a point to the nearest wall, obstacle or body of another robot."""
-    cell = body.floor.cell(point_m)
     others = [hypot(x - point_m[0], y - point_m[1]) - BODY_M for x, y in body.others_m]
-    return min([float(body.floor.walls_m[cell.row, cell.column]), body.floor.room_m(point_m, point_m), *others])
+    return min([body.floor.walls_m[body.floor.cell(point_m)], body.floor.room_m(point_m, point_m), *others])
 
 
 def edge_away(body: Body) -> Generator[None, None, None]:

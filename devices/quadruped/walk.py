@@ -10,7 +10,7 @@ from math import hypot
 from devices.quadruped import path
 from devices.quadruped.body import Body
 from devices.quadruped.follow import CRUISE_MPS, FACING_RAD, NEAR_MPS, Follower, turn_rate
-from devices.quadruped.map import Cell
+from devices.quadruped.grid import Cell
 from devices.quadruped.spacing import edge_away, runs_into_other
 from wire.frames import bearing_rad, wrap_rad
 from wire.messages.command import ReasonCode
@@ -154,8 +154,8 @@ def follow(body: Body, legs_m: list[Vec2]) -> Generator[None, None, str]:
 
 
 def _limit(body: Body) -> float:
-    cell, here = body.floor.cell(body.position_m), body.position_m
-    clearance = min(float(body.floor.walls_m[cell.row, cell.column]), body.floor.room_m(here, here))
+    here = body.position_m
+    clearance = min(body.floor.walls_m[body.floor.cell(here)], body.floor.room_m(here, here))
     share = max(0.0, min(1.0, (clearance - path.NEEDED_M) / (path.WANTED_M - path.NEEDED_M)))
     return NEAR_MPS + share * (CRUISE_MPS - NEAR_MPS)
 

@@ -6,6 +6,7 @@ Fixed, and not as soon as it is there, so that in lockstep the same run gives th
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from math import inf
 from typing import Generic, TypeVar
 
 LOOK_S = 0.15
@@ -31,6 +32,11 @@ class Pending(Generic[Result]):
         while self._waiting and self._waiting[0][0] <= now_s + 1e-6:
             results.append(self._waiting.popleft()[1].result())
         return results
+
+    @property
+    def next_due_s(self) -> float:
+        """When the oldest result that is not handed out yet is due; infinite when there is none."""
+        return self._waiting[0][0] if self._waiting else inf
 
     def close(self) -> None:
         """Forget what is not due yet."""

@@ -124,6 +124,10 @@ class GoHome:
     def done(self) -> bool:
         return self._leg == "land" and self.landing.done
 
+    @property
+    def landing_now(self) -> bool:
+        return self._leg == "land"
+
     def step(self, now: Situation, now_s: float) -> Setpoint:
         if now.vehicle.on_ground or not now.estimate.position_ok:
             self._leg = "land"

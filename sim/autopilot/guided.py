@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
-from sim.autopilot.flying import Climb, Hover, blind
+from sim.autopilot.flying import Circle, Climb, Hover, blind
 from sim.autopilot.situation import Situation
 from sim.flight.state import FREE, AttitudeTarget, Off, OptionalVec3, Setpoint, Trajectory, Vec3
 
@@ -17,7 +17,7 @@ class Guided:
 
     target: Trajectory | AttitudeTarget | None = None
     heard_s: float = -math.inf
-    rest: Hover | Climb | None = None
+    rest: Hover | Climb | Circle | None = None
     """What is flown without a setpoint: taking off, a place to go to, or hovering where it came to rest."""
     done: bool = True
     _pace: Vec3 | None = None

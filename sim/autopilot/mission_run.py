@@ -35,7 +35,7 @@ class MissionRun:
     """From the mission's current item on. Takes off first when the items do not say so; hovers when all are done."""
 
     mission: Mission
-    _leg: Activity | None = None
+    leg: Activity | None = None
     _rest: Activity | None = None
     _seq: int = -1
     _lifting: bool = False
@@ -50,30 +50,30 @@ class MissionRun:
 
     @property
     def place_ned_m(self) -> Vec3 | None:
-        leg = self._leg or self._rest
+        leg = self.leg or self._rest
         return getattr(leg, "place_ned_m", None)
 
     def step(self, now: Situation, now_s: float) -> Setpoint:
         if self.paused:
-            self._leg = None
+            self.leg = None
             return self._hover(now, now_s)
         mission = self.mission
-        if mission.finished and self._leg is None:
+        if mission.finished and self.leg is None:
             return self._hover(now, now_s)
-        if self._leg is not None and self._seq != mission.current and not mission.finished:
-            self._leg = None  # another item was made the current one
+        if self.leg is not None and self._seq != mission.current and not mission.finished:
+            self.leg = None  # another item was made the current one
         for _ in range(len(mission.items) + 1):
-            if self._leg is not None or mission.finished:
+            if self.leg is not None or mission.finished:
                 break
             self._begin(mission.items[mission.current], now)
-        if self._leg is None:
+        if self.leg is None:
             if not mission.finished:
                 now.say(Severity.WARNING, "Mission: no item of it flies anywhere")
                 mission.finished = True
             return self._hover(now, now_s)
-        setpoint = self._leg.step(now, now_s)
+        setpoint = self.leg.step(now, now_s)
         self._rest = None
-        if not self._leg.done:
+        if not self.leg.done:
             self._done_s = None
         elif self._done_s is None:
             self._done_s = now_s
@@ -82,7 +82,7 @@ class MissionRun:
         return setpoint
 
     def _end(self) -> None:
-        self._rest, self._leg, self._done_s = self._leg, None, None
+        self._rest, self.leg, self._done_s = self.leg, None, None
         if isinstance(self._rest, Circle | GoHome):
             self._rest = None
         if self._lifting:
@@ -103,9 +103,9 @@ class MissionRun:
             self.mission.advance()
         elif now.vehicle.on_ground and item.command not in _ON_GROUND:
             height = now.params.get("MIS_TAKEOFF_ALT", 1.0)
-            self._lifting, self._leg = True, Climb(now.below_ceiling((0.0, 0.0, now.home[2] - height))[2])
+            self._lifting, self.leg = True, Climb(now.below_ceiling((0.0, 0.0, now.home[2] - height))[2])
         else:
-            self._leg = self._activity(item, now)
+            self.leg = self._activity(item, now)
 
     def _activity(self, item: Item, now: Situation) -> Activity:
         if item.command == RETURN:

@@ -8,7 +8,7 @@ import numpy as np
 from sim.flight.state import Trajectory, Vec3
 from sim.flight.world import BareFloor
 
-_WIDTH_PX, _HEIGHT_PX, _LEFT_PX, _GAP_PX = 1100, 240, 70, 34
+_WIDTH_PX, _HEIGHT_PX, _LEFT_PX, _GAP_PX = 1100, 240, 70, 52
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 _INK, _GRID, _ASKED_BGR, _DONE_BGR = (40, 40, 40), (225, 225, 225), (60, 60, 210), (170, 110, 40)
 _START: Vec3 = (0.0, 0.0, -2.0)

@@ -3,6 +3,7 @@
 from math import atan2, cos, pi, sqrt
 from typing import Any
 
+from sim.boxes import Box
 from sim.bullet import STEP_S
 from sim.flight.airframe import (
     AVIONICS_W,
@@ -230,6 +231,11 @@ class Quadrotor:
         (x, y, z), (qx, qy, qz, qw) = self._bullet.getBasePositionAndOrientation(self.body)
         yaw = atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz))
         return (x, y, z - HALF_M[2]), wrap_rad(yaw)
+
+    def box(self) -> Box:
+        """The body, level."""
+        (x, y, z), yaw_rad = self.true_pose()
+        return Box((x, y, z + HALF_M[2]), HALF_M, yaw_rad)
 
 
 def _wants_up(wish: Trajectory, now: Estimator) -> bool:

@@ -96,6 +96,23 @@ def test_cancel_stops_within_two_ticks(yard: Yard) -> None:
     assert [r.status for r in yard.hub.results] == ["cancelled"]
 
 
+def test_rests_while_it_stands_and_takes_every_step_while_it_has_a_goal(yard: Yard) -> None:
+    def commands_in(seconds: float) -> int:
+        before = yard.driver.velocity.seq
+        yard.mesh.run(seconds)
+        return yard.driver.velocity.seq - before
+
+    yard.mesh.run(1.0)
+    assert commands_in(2.0) <= 14
+    yard.hub.send(command("g-1", point_m=(3.0, 1.0)))
+    yard.mesh.run(0.3)
+    assert commands_in(2.0) == 40
+    yard.until_result(10.0)
+    yard.mesh.run(0.5)
+    assert yard.driver.velocity.forward_mps == 0.0
+    assert commands_in(2.0) <= 14
+
+
 def test_stands_still_without_the_hub_and_goes_on_with_it(yard: Yard) -> None:
     yard.hub.send(command("g-1", point_m=(7.0, 3.0)))
     yard.mesh.run(2.0)

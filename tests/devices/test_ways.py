@@ -1,7 +1,7 @@
 """The floor map, ways over it, and how much of a room has been seen."""
 
 from itertools import pairwise
-from math import hypot, inf, pi
+from math import cos, hypot, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from devices.quadruped import path, places
 from devices.quadruped.coverage import Coverage
 from devices.quadruped.follow import Follower
+from devices.quadruped.grid import Grid
 from devices.quadruped.look import Look
 from devices.quadruped.map import FloorMap, without_doors
 from tests.devices.driver import two_rooms
@@ -24,7 +25,7 @@ Point = st.tuples(st.floats(0.5, 7.5), st.floats(0.5, 3.5))
 def floor_with(*points_m: tuple[float, float]) -> FloorMap:
     floor = FloorMap(SITE)
     for _ in range(3):
-        floor.mark(np.array(points_m).reshape(-1, 2), 1.0)
+        floor.mark(points_m, 1.0)
     return floor
 
 
@@ -47,10 +48,23 @@ def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
     floor = floor_with((2.0, 2.0))
     cell = floor.cell((1.45, 2.05))
     x, y = floor.centre_m(cell)
-    assert floor.clearance_m[cell.row, cell.column] == pytest.approx(hypot(x - 2.0, y - 2.0), abs=1e-3)
+    assert floor.clearance_m[cell] == pytest.approx(hypot(x - 2.0, y - 2.0), abs=1e-3)
     beside_wall = floor.cell((3.55, 0.85))
     gap = 4.0 - 0.05 - floor.centre_m(beside_wall)[0]
-    assert floor.walls_m[beside_wall.row, beside_wall.column] == pytest.approx(gap, abs=1e-3)
+    assert floor.walls_m[beside_wall] == pytest.approx(gap, abs=1e-3)
+
+
+def test_what_a_standing_robot_sees_again_and_again_stays_known() -> None:
+    floor, cell = FloorMap(SITE), FloorMap(SITE).cell((2.0, 2.0))
+    for number in range(100):
+        same = scan(1.0, 2.0, 1.0).model_copy(update={"seq": number, "stamp_s": 0.2 * number})
+        floor.see(same)
+    floor.forget(0.2 * 99 - 2.0)
+    assert floor.clearance_m[cell] < 0.1
+    for number in range(100, 113):
+        gone = scan(1.0, 2.0, 3.0).model_copy(update={"seq": number, "stamp_s": 0.2 * number})
+        floor.see(gone)
+    assert floor.clearance_m[cell] > 0.5, "a beam that goes on further is news at once"
 
 
 def test_a_wall_drawn_through_a_door_has_a_gap() -> None:
@@ -112,12 +126,11 @@ def test_a_way_keeps_its_distance_and_leads_to_the_goal(start: tuple, end: tuple
     if way is None:
         return
     legs = path.pull(floor, price, way)
-    begin = floor.cell(start)
-    stands_tight = floor.clearance_m[begin.row, begin.column] < path.NEEDED_M
+    stands_tight = floor.clearance_m[floor.cell(start)] < path.NEEDED_M
     here = way[0]
     for corner in legs:
-        values = floor.along(floor.clearance_m, here, corner)
-        assert stands_tight or values.min() >= path.NEEDED_M
+        gap_m = min(floor.clearance_m[cell] for cell in floor.along(here, corner))
+        assert stands_tight or gap_m >= path.NEEDED_M
         assert floor.clear_of_walls(here, corner)
         here = corner
     assert path.length_m([way[0], *legs]) <= path.length_m(way) + 1e-6
@@ -133,20 +146,17 @@ def test_a_way_is_the_cheapest_there_is(start: tuple, end: tuple) -> None:
     goals = places.near_point(floor, end)
     way = path.search(floor, price, start, goals)
     cheapest = _dijkstra(floor, price, start)
-    best = min(cheapest.get((c.row, c.column), inf) + extra for c, extra in goals.items())
+    best = min(cheapest.get(divmod(c, floor.columns), inf) + extra for c, extra in goals.items())
     if way is None:
         assert best == inf
         return
-    paid = sum(
-        float(price[floor.cell(b).row, floor.cell(b).column]) * hypot(b[0] - a[0], b[1] - a[1])
-        for a, b in pairwise(way)
-    )
+    paid = sum(price[floor.cell(b)] * hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(way))
     assert paid + goals[floor.cell(way[-1])] == pytest.approx(best, rel=1e-3)
 
 
-def _dijkstra(floor: FloorMap, price: np.ndarray, start: tuple) -> dict:
-    first = floor.cell(start)
-    cost, frontier = {(first.row, first.column): 0.0}, [(first.row, first.column)]
+def _dijkstra(floor: FloorMap, price: Grid, start: tuple) -> dict:
+    first = divmod(floor.cell(start), floor.columns)
+    cost, frontier = {first: 0.0}, [first]
     while frontier:
         changed = []
         for row, column in frontier:
@@ -154,7 +164,7 @@ def _dijkstra(floor: FloorMap, price: np.ndarray, start: tuple) -> dict:
                 there = (row + down, column + right)
                 if not (0 <= there[0] < floor.rows and 0 <= there[1] < floor.columns):
                     continue
-                total = cost[row, column] + float(price[there]) * 0.1 * hypot(down, right)
+                total = cost[row, column] + price[there[0] * floor.columns + there[1]] * 0.1 * hypot(down, right)
                 if total < cost.get(there, inf) - 1e-9:
                     cost[there] = total
                     changed.append(there)
@@ -169,7 +179,7 @@ def test_reachable_is_what_a_way_leads_to(start: tuple, things: list) -> None:
     price = path.prices(floor, start)
     reached = path.reachable(floor, price, start)
     for cell in [floor.cell((x, y)) for x in (1.0, 3.0, 5.0, 7.0) for y in (1.0, 3.0)]:
-        assert bool(reached[cell.row, cell.column]) == (path.search(floor, price, start, {cell: 0.0}) is not None)
+        assert bool(reached[cell]) == (path.search(floor, price, start, {cell: 0.0}) is not None)
 
 
 def test_a_doorway_is_passed_straight() -> None:
@@ -243,3 +253,20 @@ def test_the_other_room_is_not_seen_through_the_wall() -> None:
     coverage = Coverage(floor, SITE.room[1].polygon_m)
     assert coverage.gain((3.0, 0.8), 0.0) < 0.12
     assert coverage.gain((6.0, 2.0), 0.0) > 0.8
+
+
+@settings(max_examples=60, deadline=None)
+@given(start=Point, yaw=st.floats(-pi, pi), things=st.lists(Point, min_size=1, max_size=8))
+def test_beams_clear_the_cells_they_pass_and_no_others(start: tuple, yaw: float, things: list) -> None:
+    floor = floor_with(*things)
+    solid = [thing for thing in things if floor.room_m(thing, thing) == 0.0]
+    beams = scan(*start, *[0.0] * 40).model_copy(update={"yaw_rad": yaw})
+    for _ in range(12):
+        floor.see(beams)
+    passed = {
+        floor.cell((start[0] + 0.1 * k * cos(yaw + 0.05 * beam), start[1] + 0.1 * k * sin(yaw + 0.05 * beam)))
+        for beam in range(40)
+        for k in range(59)
+    }
+    for thing in solid:
+        assert (floor.room_m(thing, thing) == 0.0) == (floor.cell(thing) not in passed)

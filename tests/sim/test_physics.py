@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from sim.flight.state import Trajectory
 from sim.lidar import ANGLE_MIN_RAD, ANGLE_STEP_RAD, BEAMS, HEIGHT_M, RANGE_M, Lidar
 from sim.physics import Physics, RobotStart
 from sim.rover import BODY_SIZE_M, Wish
@@ -131,6 +132,36 @@ def test_the_same_commands_give_the_same_world_to_the_last_bit(make_physics):
     assert episode() == episode()
 
 
+def test_a_world_at_rest_goes_on_exactly_as_if_every_step_had_been_worked_out(make_physics):
+    def run(awake):
+        physics = make_physics(((1.5, 2.5), 0.3), ((4.0, 1.0), 1.0))
+        seen = []
+        for tick in range(160):
+            if awake:
+                physics.place(FRIDGE)  # changes nothing, but has the next step worked out
+            if tick in (40, 100):
+                physics.robots["dog-1"].wish = Wish(0.6, 0.1, 0.4)
+            if tick in (60, 130):
+                physics.robots["dog-1"].wish = Wish()
+            physics.advance(12)
+            seen.append(([rover.state() for rover in physics.robots.values()], physics.step_count, physics.collisions))
+        return seen
+
+    assert run(awake=False) == run(awake=True)
+
+
+def test_a_sweep_among_things_that_stand_is_as_good_as_a_new_one(make_physics):
+    physics = make_physics(((1.5, 2.5), 0.3), ((4.0, 1.0), 1.0))
+    lidar = Lidar(physics, "dog-1")
+    first = lidar.sweep()
+    physics.advance(12)
+    assert lidar.sweep() == first
+    physics.robots["dog-2"].wish = Wish(forward_mps=0.5)
+    physics.advance(120)
+    assert lidar.sweep() == Lidar(physics, "dog-1").sweep()
+    assert lidar.sweep() != first, "the other robot is seen to have moved"
+
+
 def test_the_lidar_measures_the_walls_and_sees_other_robots(make_physics):
     physics = make_physics(((2.5, 2.5), 0.0), ((2.5, 3.5), 0.0))
     ranges = Lidar(physics, "dog-1").sweep()
@@ -178,4 +209,29 @@ def test_legs_trot_stand_and_stop_at_walls():
     (_, _, height_m), turn = physics.bullet.getBasePositionAndOrientation(rover.body)
     assert 0.25 < height_m < 0.4
     assert abs(turn[0]) + abs(turn[1]) < 0.1
+    physics.close()
+
+
+def test_a_drone_flies_in_the_house_is_seen_by_lidar_and_its_touch_counts() -> None:
+    drone = RobotStart("drone-1", (1.5, 2.0), 0.0)
+    physics = Physics(make_small_home(), [RobotStart("dog-1", (2.5, 2.0), pi)], drones=[drone])
+    asked: list[float] = []
+    physics.each_step.append(asked.append)
+    vehicle = physics.drones["drone-1"]
+    physics.advance(240)
+    assert asked == pytest.approx([k / 240.0 for k in range(240)])
+    assert any(abs(box.centre_m[0] - 1.5) < 0.05 for box in physics.moving("dog-1"))
+    low = physics.cast("dog-1", [(2.1, 2.0, 0.08)], [(1.0, 2.0, 0.08)])
+    assert low[0] == pytest.approx((2.1 - 1.7) / 1.1, abs=0.02), "it stands in the way of a ray"
+    vehicle.arm()
+    vehicle.command(Trajectory((2.0, 1.5, -1.2)))
+    physics.advance(6 * 240)
+    assert vehicle.true_pose()[0] == pytest.approx((1.5, 2.0, 1.2), abs=0.1)
+    assert physics.collisions == 0
+    vehicle.disarm()
+    physics.advance(240)
+    vehicle.arm()
+    vehicle.command(Trajectory((2.0, 2.5, -0.3)))
+    physics.advance(4 * 240)
+    assert physics.collisions >= 1
     physics.close()

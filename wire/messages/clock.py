@@ -8,7 +8,7 @@ from wire.model import Id, Message, Stamp, Text
 
 
 class Tick(Message):
-    """One step of simulated time. In lockstep the owner waits for a `TickDone` of every follower."""
+    """One step of simulated time. In lockstep the owner waits for a `TickDone` of every follower whose turn it is."""
 
     tick: int = Field(ge=0)
     now_s: Stamp
@@ -20,6 +20,8 @@ class TickDone(Message):
 
     tick: int = Field(ge=0)
     follower: Id
+    next_turn: int = Field(default=0, ge=0)
+    """The tick in which it wants to step again; until then it rests. Any that is past means the next."""
 
 
 class Health(Message):

@@ -71,6 +71,10 @@ class Node:
             mav.MAVLINK_MSG_ID_LOG_REQUEST_LIST: self._plain(upkeep.no_logs),
         }
 
+    def handled(self) -> list[int]:
+        """The ids of the messages that are not simply let be."""
+        return sorted(self._handlers)
+
     def _plain(self, answer: Callable[[Craft, Message, Sender, float], None]) -> Handler:
         return lambda message, sender, now_s: answer(self.craft, message, sender, now_s)
 

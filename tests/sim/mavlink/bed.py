@@ -29,6 +29,12 @@ class Bed:
         self.endpoint = Endpoint(aboard, [self.tcp, self.udp])
         self.clients: list[Client] = []
 
+    def __enter__(self) -> "Bed":
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        self.close()
+
     def advance(self, span_s: float) -> None:
         """Let time pass; clients take what comes."""
         for _ in range(max(1, round(span_s / STEP_S / STEPS))):
@@ -64,7 +70,8 @@ class Client:
         self.socket.connect(("127.0.0.1", bed.tcp.port if stream else bed.udp.port))
         self.socket.setblocking(False)
         self.mav = mav.MAVLink(self, sysid, 190)
-        self.mav.robust_parsing = True
+        self.reader = mav.MAVLink(None)
+        self.reader.robust_parsing = True
         if key is not None:
             self.mav.signing.secret_key = key
             self.mav.signing.sign_outgoing = True
@@ -89,7 +96,7 @@ class Client:
                 return
             if not data:
                 return
-            self.heard.extend(self.mav.parse_buffer(data) or ())
+            self.heard.extend(self.reader.parse_buffer(data) or ())
 
     def all(self, name: str) -> list[Any]:
         return [message for message in self.heard if message.get_type() == name]

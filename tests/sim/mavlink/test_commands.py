@@ -140,13 +140,12 @@ def test_takeoff_reports_and_lands(bed):
 
 
 def test_one_system_id_a_vehicle():
-    bed = Bed("ardupilot", "--vehicles", "3")
-    client = bed.client()
-    client.wait("HEARTBEAT")
-    bed.advance(2.0)
-    assert {m.get_srcSystem() for m in client.heard} == {1, 2, 3}
-    assert client.command(mav.MAV_CMD_DO_SET_MODE, 1, 4, target=(2, 1)) == 0
-    bed.advance(2.0)
-    modes = {m.get_srcSystem(): m.custom_mode for m in client.all("HEARTBEAT") if m.get_srcComponent() == 1}
-    assert modes == {1: 0, 2: 4, 3: 0}
-    bed.close()
+    with Bed("ardupilot", "--vehicles", "3") as bed:
+        client = bed.client()
+        client.wait("HEARTBEAT")
+        bed.advance(2.0)
+        assert {m.get_srcSystem() for m in client.heard} == {1, 2, 3}
+        assert client.command(mav.MAV_CMD_DO_SET_MODE, 1, 4, target=(2, 1)) == 0
+        bed.advance(2.0)
+        modes = {m.get_srcSystem(): m.custom_mode for m in client.all("HEARTBEAT") if m.get_srcComponent() == 1}
+        assert modes == {1: 0, 2: 4, 3: 0}

@@ -97,6 +97,11 @@ view *args: install
 record *args: install
     {{ python }} -m console record "$@"
 
+# a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
+[group('fly')]
+sitl *args: install
+    {{ python }} -m sim.sitl "$@"
+
 # list the site files there are; `up NAME` starts one (--json)
 [group('sites')]
 sites *args: install

@@ -27,7 +27,6 @@ APART_M = 1.5
 STEPS_PER_TURN = 2
 FARTHEST_BEHIND_S = 0.5
 """A machine that is slower than the clock lets time slip rather than hurry after it."""
-SITUATION_OPEN_M = inf
 
 
 class Flight:
@@ -43,7 +42,7 @@ class Flight:
             self._bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, EVERYTHING)
             yaw_rad = heading_to_yaw_rad(radians(options.home[3]))
             starts = [((APART_M * k, 0.0), yaw_rad) for k in range(options.vehicles)]
-            ceiling_m = SITUATION_OPEN_M
+            ceiling_m = inf
         else:
             scene = make_home(options.house)
             self._bullet = Physics(scene, ()).bullet
@@ -168,7 +167,6 @@ def _open(options: Options, signing: Signing | None) -> list[Link]:
 
 
 def main(argv: list[str] | None = None) -> int:
-    begun_s = time.monotonic()
     options = parse(argv)
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     logging.getLogger("pymavlink").setLevel(logging.WARNING)
@@ -180,8 +178,7 @@ def main(argv: list[str] | None = None) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, sitl.stop)
     try:
-        ready = f"ready after {time.monotonic() - begun_s:.1f} s; Ctrl-C ends it"
-        sys.stdout.write("\n".join([*sitl.lines(), ready]) + "\n")
+        sys.stdout.write("\n".join([*sitl.lines(), "ready; Ctrl-C ends it"]) + "\n")
         sys.stdout.flush()
         sitl.run()
     finally:

@@ -172,6 +172,7 @@ class TcpServer:
                 continue
             made.setblocking(False)
             made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, GONE_BYTES // 8)
             self._clients.append(_Client(made, f"tcp from {address[0]}:{address[1]}", self._signing))
 
     def poll(self, now_s: float) -> Iterator[Heard]:

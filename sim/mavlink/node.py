@@ -71,6 +71,10 @@ class Node:
             mav.MAVLINK_MSG_ID_LOG_REQUEST_LIST: self._plain(upkeep.no_logs),
         }
 
+    def handled(self) -> list[int]:
+        """The ids of the messages that are not simply let be."""
+        return sorted(self._handlers)
+
     def _plain(self, answer: Callable[[Craft, Message, Sender, float], None]) -> Handler:
         return lambda message, sender, now_s: answer(self.craft, message, sender, now_s)
 
@@ -119,7 +123,7 @@ class Node:
             self.craft.say(severity, text)
         for seq in self.craft.autopilot.reached():
             self.craft.broadcast(mav.MAVLink_mission_item_reached_message(seq & 0xFFFF))
-        self._commands.step()
+        self._commands.step(now_s)
         self._params.step(now_s)
         self._missions.step(now_s)
         self._camera.step(now_s)

@@ -24,6 +24,7 @@ _DECIDE_S = 1 / 60 - 1e-4
 _LOOK_S = 1 / 20 - 1e-4
 _STREAM_S = 0.5
 """PX4's offboard mode is entered when the last setpoint is not older."""
+_TELL_S = 0.4
 _CRASH_S = 2.0
 _NEEDS_POSITION = frozenset({"hold", "takeoff", "return", "mission", "offboard", "position"})
 _AUTO = frozenset({"takeoff", "land", "return", "mission"})
@@ -59,7 +60,7 @@ class Conduct:
         self.stream: Trajectory | AttitudeTarget | None = None
         """The latest setpoint, where offboard flies a stream of them."""
         self.activity: Activity = self.begin(first)
-        self._decided_s = self._looked_s = -math.inf
+        self._decided_s = self._looked_s = self._told_s = -math.inf
         self._grounded_s: float | None = None
         self._tipped_s: float | None = None
         self._flown = False
@@ -96,7 +97,8 @@ class Conduct:
             if now_s >= until_s:
                 self.news.append((command, Ack.ACCEPTED, 100))
                 self.waiting = None
-            else:
+            elif now_s - self._told_s >= _TELL_S:
+                self._told_s = now_s
                 share = (now_s - begun_s) / max(1e-6, until_s - begun_s)
                 self.news.append((command, Ack.IN_PROGRESS, int(100 * share)))
 
@@ -121,11 +123,10 @@ class Conduct:
             return
         landed = (self.activity.done and now.mode in ("land", "return", "mission")) or (self._flown and not ardupilot)
         if landed:
-            span_s = 0.0 if ardupilot else now.params.get("COM_DISARM_LAND")
+            span_s = 1e-3 if ardupilot else now.params.get("COM_DISARM_LAND")
         else:
             span_s = now.params.get("DISARM_DELAY" if ardupilot else "COM_DISARM_PRFLT")
-            span_s = -1.0 if span_s == 0.0 else span_s
-        if span_s >= 0.0 and now_s - self._grounded_s >= span_s:
+        if span_s > 0.0 and now_s - self._grounded_s >= span_s:  # 0 and less: never
             self.disarm("Disarmed after landing" if landed else "Disarmed: idle on the ground", now_s)
 
     def _asked_up(self, now_s: float) -> bool:

@@ -98,7 +98,9 @@ class Sitl:
         self.links = _open(options, signing)
         self.flight = Flight(options)
         row = PERSONALITIES[options.firmware]
-        self.endpoint = Endpoint([Aboard(each, row) for each in self.flight.firmwares], self.links, unix_s)
+        self.endpoint = Endpoint(
+            [Aboard(each, row, camera=options.camera) for each in self.flight.firmwares], self.links, unix_s
+        )
 
     def run(self) -> None:
         """Real time until `running` is false. A message is acted on as soon as it comes."""

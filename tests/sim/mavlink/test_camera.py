@@ -3,7 +3,9 @@ import math
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
 from sim.mavlink.camera import CAMERA
+from sim.mavlink.endpoint import Aboard, Endpoint
 from sim.mavlink.gimbal import GIMBAL
+from tests.sim.mavlink.bed import Bed
 
 NAN = math.nan
 
@@ -69,3 +71,15 @@ def test_gimbal_turns_and_says_so(bed):
     client.mav.gimbal_manager_set_attitude_send(1, GIMBAL, 0, 0, [1, 0, 0, 0], NAN, NAN, NAN)
     client.forget()
     client.wait("GIMBAL_DEVICE_ATTITUDE_STATUS", 3.0, lambda m: abs(m.q[0] - 1) < 0.001)
+
+
+def test_without_a_camera_there_is_one_heartbeat():
+    with Bed("ardupilot") as bed:
+        node = bed.endpoint.nodes[0]
+        bare = Aboard(node.craft.autopilot, node.craft.personality, camera=False)
+        bed.endpoint = Endpoint([bare], bed.endpoint.links)
+        client = bed.client()
+        client.wait("HEARTBEAT")
+        bed.advance(3.0)
+        assert {m.get_srcComponent() for m in client.heard} == {1}
+        assert client.command(512, 280, target=(1, 0)) == mav.MAV_RESULT_UNSUPPORTED

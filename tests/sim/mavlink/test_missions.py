@@ -196,3 +196,15 @@ def test_a_place_to_go_to_now(bed):
     if bed.firmware.now.row.name == "ardupilot":
         assert ack.type == 0
         client.wait("LOCAL_POSITION_NED", 15.0, lambda m: m.x > 1.5)
+
+
+def test_end_of_a_mission_is_told(bed):
+    client = bed.client()
+    client.fly()
+    assert upload(client, [(*HOME, 1.5), (HOME[0] + 1e-5, HOME[1], 1.5)]) == 0
+    assert client.command(mav.MAV_CMD_MISSION_START) == 0
+    client.wait("MISSION_ITEM_REACHED", 15.0, lambda m: m.seq == 1)
+    client.wait("MISSION_CURRENT", 3.0, lambda m: m.mission_state == mav.MISSION_STATE_COMPLETE)
+    assert upload(client, POINTS) == 0
+    client.forget()
+    assert client.wait("MISSION_CURRENT").mission_state != mav.MISSION_STATE_COMPLETE

@@ -1,3 +1,5 @@
+"""The camera and the gimbal aboard answer as MAVLink asks of them."""
+
 import math
 
 from pymavlink.dialects.v20 import ardupilotmega as mav

@@ -1,3 +1,5 @@
+"""Every command is acknowledged once, to whoever sent it."""
+
 import math
 
 import pytest

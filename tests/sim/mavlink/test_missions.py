@@ -1,3 +1,5 @@
+"""The mission protocol: uploads, downloads, wrong orders, and clients that go."""
+
 import math
 
 import pytest

@@ -1,3 +1,5 @@
+"""The parameter protocol: lists, types, unknown names, values out of range."""
+
 import math
 
 from pymavlink.dialects.v20 import ardupilotmega as mav

@@ -1,3 +1,5 @@
+"""Setpoints, outside poses and sticks reach the autopilot as they were meant."""
+
 import math
 
 import pytest

@@ -10,14 +10,16 @@ from console.bring_up import Ready, bring_up
 from console.client import Client
 from console.floor_map import FloorMap
 from console.output import terminal
-from console.places import free_port, generate_home
+from console.places import free_port, free_udp_ports, generate_home
 from console.task import RUNNING, run_task
 from deploy.launch import ProcessInfo
 from wire.messages.command import RobotReport
+from wire.messages.goal import Goal, Selector
 from wire.messages.operator import TaskState
 from wire.messages.truth import JudgeReply, JudgeRequest
 from wire.messages.world import SnapshotRequest, WorldState
 from wire.model import Vec2
+from wire.site import Site
 
 
 @dataclass
@@ -34,9 +36,12 @@ class Run:
 
 
 def demonstrate(
-    seed: int, out: Path, instruction: str | None, limit_s: float, keep: bool, quiet: bool
+    seed: int, out: Path, instruction: str | None, limit_s: float, keep: bool, quiet: bool, drones: int = 0
 ) -> dict[str, Any]:
-    """Bring a home up, do one instruction, write summary.json, run.rrd and map.png; returns the summary."""
+    """Bring a home up, do one instruction, write summary.json, run.rrd and map.png; returns the summary.
+
+    With a drone the scene's own task is followed by a look from above, judged as the rest is.
+    """
     out.mkdir(parents=True, exist_ok=True)
     recording = (out / "run.rrd").resolve()
     recording.unlink(missing_ok=True)
@@ -44,7 +49,8 @@ def demonstrate(
         terminal.print(f"generating the home of seed {seed} ...", markup=False)
     site_file = generate_home(
         seed, out / "site.toml", "--name", f"demo-{seed}", "--port", str(free_port()),
-        "--view-port", str(free_port()), "--save", str(recording),
+        "--view-port", str(free_port()), "--save", str(recording), "--drones", str(drones),
+        "--mavlink-port", str(free_udp_ports(drones)),
     )  # fmt: skip
     ready = bring_up(site_file, quiet=quiet)
     try:
@@ -73,15 +79,27 @@ def _run(ready: Ready, instruction: str | None, limit_s: float, quiet: bool) -> 
         Client(ready.site, ready.mesh.credentials_dir) as client,
     ):
         before = evaluator.ask("judge", JudgeRequest(), JudgeReply)
+        asked = before.task if instruction is None else None
         words = instruction or before.task.instruction
+        look = _look_from_above(ready.site) if asked is not None else None
+        words = f"{words} and {look.text}" if look is not None else words
         if not quiet:
             terminal.print(f"\ninstruction: {words}\n", markup=False)
         client.on("robot_report", RobotReport, trace)
         final = run_task(client, words, limit_s, quiet)
-        goals = None if instruction is None else tuple(g.goal for g in final.goals)
+        goals = (*asked.goals, *((look,) if look is not None else ())) if asked else tuple(g.goal for g in final.goals)
         judged = evaluator.ask("judge", JudgeRequest(goals=goals, since_s=before.stamp_s), JudgeReply)
         world = client.ask("snapshot", SnapshotRequest(), WorldState)
     return Run(final, judged, world, trails, time.monotonic() - began, judged.sim_s - before.sim_s)
+
+
+def _look_from_above(site: Site) -> Goal | None:
+    """What a drone is asked for, where there is one."""
+    if all(robot.kind != "drone" for robot in site.robot):
+        return None
+    room = next((room for room in site.room if room.kind == "Kitchen"), site.room[0])
+    selector = Selector(room=room.id)
+    return Goal(predicate="seen_from_above", subject=selector, text=f"inspect the {room.name} from above")
 
 
 def _summary(seed: int, run: Run) -> dict[str, Any]:

@@ -117,6 +117,23 @@ def _refuse_if_up(mesh: Mesh, name: str) -> None:
         raise LaunchError(f"the mesh of {name} already runs; `justw down` stops it")
 
 
+def free_udp_ports(count: int, preferred: int = 14540) -> int:
+    """The first of so many UDP ports in a row that are free, the preferred one if it is."""
+    first = preferred
+    while not all(_is_free_udp(first + k) for k in range(count)):
+        first += 1
+    return first
+
+
+def _is_free_udp(port: int) -> bool:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+    return True
+
+
 def free_port(preferred: int = 0) -> int:
     """The preferred port when it is free, else any free one."""
     if preferred and is_free(preferred):

@@ -34,11 +34,12 @@ def demo(
     out: Annotated[Path, typer.Option(help="where the results go")] = Path("out/demo"),
     limit_s: Annotated[float, typer.Option(help="give up after this many seconds")] = 600.0,
     keep: Annotated[bool, typer.Option("--keep", help="leave the mesh up afterwards")] = False,
+    drones: Annotated[int, typer.Option(help="how many drones fly too", min=0, max=4)] = 1,
     json_: Json = False,
 ) -> None:
     """Bring a home full of cameras and robots up, have one instruction done, judge it, write out/demo/."""
     try:
-        summary = demonstrate(seed, out, instruction, limit_s, keep, quiet=json_)
+        summary = demonstrate(seed, out, instruction, limit_s, keep, quiet=json_, drones=drones)
     except (SiteError, LaunchError, ClientError, WordsError) as error:
         fail(str(error), json_)
     except OSError as error:
@@ -52,6 +53,7 @@ def demo_seeds(
     seeds: Annotated[str, typer.Option(help="FIRST-LAST")] = "0-19",
     out: Annotated[Path, typer.Option(help="one folder per seed goes here")] = Path("out/seeds"),
     limit_s: Annotated[float, typer.Option(help="give up on a seed after this many seconds")] = 400.0,
+    drones: Annotated[int, typer.Option(help="how many drones fly too", min=0, max=4)] = 0,
     json_: Json = False,
 ) -> None:
     """Run the demo on many seeds; every run is reported, failures with their reason, and written to OUT/seeds.json.
@@ -61,7 +63,7 @@ def demo_seeds(
     rows: list[dict[str, Any]] = []
     for seed in _range(seeds, json_):
         try:
-            row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True)
+            row = demonstrate(seed, out / str(seed), None, limit_s, keep=False, quiet=True, drones=drones)
         except (SiteError, LaunchError, ClientError) as error:
             row = {"seed": seed, "success": False, "reason": str(error), "instruction": "", "path_m": 0.0, "sim_s": 0.0}
         except OSError as error:

@@ -1,5 +1,6 @@
 """`python -m sim.sitl`: simulated drones by the wall clock, for any MAVLink ground station or library."""
 
+import ipaddress
 import logging
 import select
 import signal
@@ -138,7 +139,7 @@ class Sitl:
             f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; "
             + ("position also as a GPS fix" if options.gps == "fused" else "no GPS: local or external position only"),
         ]
-        here = "127.0.0.1" if options.bind == "0.0.0.0" else options.bind
+        here = "127.0.0.1" if ipaddress.ip_address(options.bind).is_unspecified else options.bind
         for link in self.links:
             if isinstance(link, TcpServer):
                 at = f"{here}:{link.port}"
@@ -148,7 +149,7 @@ class Sitl:
                 lines.append(f"UDP on {at}: mavproxy.py --master udpout:{at}; MAVSDK udpout://{at}")
         for host, port in options.udp_out:
             known = "QGroundControl finds it by itself; " if port == 14550 else ""
-            lines.append(f"UDP to {host}:{port}: {known}MAVSDK udpin://0.0.0.0:{port}")
+            lines.append(f"UDP to {host}:{port}: {known}MAVSDK udpin://{host}:{port}")
         if options.sign_key is not None:
             lines.append("only commands signed with the key are taken")
         return lines

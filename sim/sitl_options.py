@@ -97,7 +97,7 @@ def _bind(text: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 0.0.0.0") from error
+        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 192.168.1.20") from error
 
 
 def parse(argv: list[str] | None) -> Options:
@@ -119,7 +119,13 @@ def parse(argv: list[str] | None) -> Options:
     shown = "show a camera and a gimbal (on for px4; off for ardupilot, as dronekit is confused by them)"
     add("--camera", choices=("on", "off"), default=None, help=shown)
     add("--sign-key", type=_key, default=None, metavar="HEX", help="take only commands signed with this key")
-    add("--bind", type=_bind, default="127.0.0.1", metavar="ADDRESS", help="0.0.0.0 lets other machines in")
+    add(
+        "--bind",
+        type=_bind,
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="this machine's address there lets other machines in (127.0.0.1)",
+    )
     given = parser.parse_args(argv)
     tcp, udp_out = tuple(given.tcp), tuple(given.udp_out)
     if not (tcp or udp_out or given.udp_in):

@@ -1,3 +1,5 @@
+"""The camera and the gimbal: what they say of themselves, pictures and turns on command."""
+
 import math
 
 from pymavlink.dialects.v20 import ardupilotmega as mav

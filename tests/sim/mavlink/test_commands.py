@@ -1,3 +1,5 @@
+"""Commands and streams: one acknowledgement each, rates that can be asked for, modes."""
+
 import math
 
 import pytest

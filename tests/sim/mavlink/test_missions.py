@@ -1,3 +1,5 @@
+"""Plans on the wire: up, down, cleared, lost, out of order, refused and abandoned."""
+
 import math
 
 import pytest

@@ -1,3 +1,5 @@
+"""Parameters on the wire: list, read, set, both encodings, and refusals."""
+
 import math
 
 from pymavlink.dialects.v20 import ardupilotmega as mav

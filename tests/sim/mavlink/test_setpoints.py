@@ -1,3 +1,5 @@
+"""Setpoints, sticks and outside poses; clocks, pings and file transfer."""
+
 import math
 
 import pytest

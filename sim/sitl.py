@@ -1,12 +1,12 @@
 """`python -m sim.sitl`: simulated drones by the wall clock, for any MAVLink ground station or library."""
 
+import ipaddress
 import logging
 import select
 import signal
 import sys
 import time
 from collections.abc import Sequence
-from ipaddress import ip_address
 from math import inf, radians
 from types import FrameType
 from typing import Any
@@ -139,7 +139,7 @@ class Sitl:
             f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; "
             + ("position also as a GPS fix" if options.gps == "fused" else "no GPS: local or external position only"),
         ]
-        here = "127.0.0.1" if ip_address(options.bind).is_unspecified else options.bind
+        here = "127.0.0.1" if ipaddress.ip_address(options.bind).is_unspecified else options.bind
         for link in self.links:
             if isinstance(link, TcpServer):
                 at = f"{here}:{link.port}"

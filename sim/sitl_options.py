@@ -97,7 +97,7 @@ def _bind(text: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 127.0.0.1") from error
+        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 192.168.1.20") from error
 
 
 def parse(argv: list[str] | None) -> Options:
@@ -124,7 +124,7 @@ def parse(argv: list[str] | None) -> Options:
         type=_bind,
         default="127.0.0.1",
         metavar="ADDRESS",
-        help="another address of this machine lets others in",
+        help="this machine's address there lets other machines in (127.0.0.1)",
     )
     given = parser.parse_args(argv)
     tcp, udp_out = tuple(given.tcp), tuple(given.udp_out)

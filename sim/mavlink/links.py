@@ -78,7 +78,7 @@ class UdpOut:
             raise LinkError(f"UDP to {host}:{port}: no such host") from error
         if ipaddress.ip_address(bind).is_loopback and not ipaddress.ip_address(self._to[0]).is_loopback:
             raise LinkError(
-                f"UDP to {host}:{port} leaves this machine, but links bind to {bind}: give --bind an address that others reach"
+                f"UDP to {host}:{port} leaves this machine, but links bind to {bind}: add --bind ADDRESS, its own there"
             )
         self._socket = _bound(socket.SOCK_DGRAM, bind, 0)
         self._peer = Peer(f"udp to {host}:{port}", self._write, next(_ids) & 0xFF, signing)

@@ -14,8 +14,8 @@ collections.MutableMapping = collections.abc.MutableMapping  # which dronekit st
 from dronekit import Command, LocationGlobalRelative, Vehicle, VehicleMode, connect  # noqa: E402
 from pymavlink import mavutil  # noqa: E402
 
-NORTH_DEG = 1.35e-5
-"""1.5 m."""
+STEP_DEG = 1.35e-5
+"""1.5 m, on the equator to the east as well."""
 RELATIVE = mavutil.mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT
 
 
@@ -38,12 +38,6 @@ def up(vehicle: Vehicle, height_m: float) -> None:
     until(lambda: vehicle.location.global_relative_frame.alt > 0.9 * height_m, 10, "up")
 
 
-def home_by(vehicle: Vehicle, mode: str) -> None:
-    vehicle.mode = VehicleMode(mode)
-    until(lambda: vehicle.mode.name == mode, 5, mode)
-    until(lambda: not vehicle.armed, 20, "landed and disarmed")
-
-
 def set_parameter(vehicle: Vehicle, name: str, value: float) -> None:
     vehicle.parameters[name] = value
     until(lambda: abs(vehicle.parameters[name] - value) < 1e-4, 5, f"{name} is {value}")
@@ -51,19 +45,21 @@ def set_parameter(vehicle: Vehicle, name: str, value: float) -> None:
 
 def upload(vehicle: Vehicle, latitude_deg: float, longitude_deg: float) -> None:
     commands = vehicle.commands
-    commands.clear()
-    for command, north_deg, height_m in (
-        (mavutil.mavlink.MAV_CMD_NAV_TAKEOFF, 0.0, 1.2),
-        (mavutil.mavlink.MAV_CMD_NAV_WAYPOINT, NORTH_DEG, 1.2),
-        (mavutil.mavlink.MAV_CMD_NAV_LAND, NORTH_DEG, 0.0),
+    commands.download()
+    commands.wait_ready()
+    commands.clear()  # it puts home back as the first item only when it knows home, from the vehicle's mission
+    for command, north, east in (
+        (mavutil.mavlink.MAV_CMD_NAV_TAKEOFF, 0, 0),
+        (mavutil.mavlink.MAV_CMD_NAV_WAYPOINT, 1, 0),
+        (mavutil.mavlink.MAV_CMD_NAV_WAYPOINT, 1, 1),
     ):
-        place = (latitude_deg + north_deg, longitude_deg, height_m)
+        place = (latitude_deg + north * STEP_DEG, longitude_deg + east * STEP_DEG, 1.2)
         commands.add(Command(0, 0, 0, RELATIVE, command, 0, 1, 0, 0, 0, 0, *place))
     commands.upload()
     commands.download()
     commands.wait_ready()
     got = [(each.command, round(each.z, 2)) for each in commands]
-    if got != [(22, 1.2), (16, 1.2), (21, 0.0)]:
+    if got != [(22, 1.2), (16, 1.2), (16, 1.2)]:
         raise RuntimeError(f"a mission came back as {got}")
     print("mission up and down")
 
@@ -71,21 +67,18 @@ def upload(vehicle: Vehicle, latitude_deg: float, longitude_deg: float) -> None:
 def fly(vehicle: Vehicle) -> None:
     up(vehicle, 1.2)
     home = vehicle.location.global_relative_frame
-    goal = LocationGlobalRelative(home.lat + NORTH_DEG, home.lon, 1.2)
+    goal = LocationGlobalRelative(home.lat + STEP_DEG, home.lon, 1.2)
     vehicle.simple_goto(goal, groundspeed=1.0)
     until(lambda: abs(vehicle.location.local_frame.north - 1.5) < 0.2, 10, "gone to a place")
     set_parameter(vehicle, "RTL_ALT", 100)
-    home_by(vehicle, "RTL")
-    until(lambda: abs(vehicle.location.local_frame.north) < 0.3, 5, "at home")
     upload(vehicle, home.lat, home.lon)
-    vehicle.mode = VehicleMode("GUIDED")
-    until(lambda: vehicle.mode.name == "GUIDED", 5, "guided again")
-    vehicle.armed = True
-    until(lambda: vehicle.armed, 5, "armed again")
     vehicle.mode = VehicleMode("AUTO")
-    until(lambda: vehicle.commands.next >= 2, 15, "on its way")
-    until(lambda: not vehicle.armed, 20, "the mission is flown")
-    until(lambda: abs(vehicle.location.local_frame.north - 1.5) < 0.3, 5, "where it leads")
+    until(lambda: vehicle.commands.next == 3, 15, "on the mission's last leg")
+    until(lambda: abs(vehicle.location.local_frame.east - 1.5) < 0.3, 10, "where it leads")
+    vehicle.mode = VehicleMode("RTL")
+    until(lambda: vehicle.mode.name == "RTL", 5, "returning")
+    until(lambda: not vehicle.armed, 25, "landed and disarmed")
+    until(lambda: abs(vehicle.location.local_frame.east) < 0.3, 5, "at home")
 
 
 def main(address: str, firmware: str) -> None:

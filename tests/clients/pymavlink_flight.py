@@ -1,4 +1,4 @@
-"""A whole flight by pymavlink alone: `python pymavlink_flight.py URL`, as tcp:HOST:PORT or udpin:HOST:PORT. Prints OK."""
+"""A whole flight by pymavlink alone: `python pymavlink_flight.py URL`, as tcp:HOST:PORT or udpout:HOST:PORT. Prints OK."""
 
 import os
 import sys
@@ -18,15 +18,22 @@ class Station:
 
     def __init__(self, url: str) -> None:
         self.link = mavutil.mavlink_connection(url, source_system=250)
+        self.beat()
         beat = self.wait("HEARTBEAT", lambda m: m.get_srcComponent() == 1)
         self.link.target_system, self.link.target_component = 1, 1
         self.px4 = beat.autopilot == mav.MAV_AUTOPILOT_PX4
 
-    def wait(self, name: str, such: Callable[[Any], bool] = lambda message: True, span_s: float = 20.0) -> Any:
+    def beat(self) -> None:
+        """That it is there; over UDP, also where."""
+        self.link.mav.heartbeat_send(mav.MAV_TYPE_GCS, mav.MAV_AUTOPILOT_INVALID, 0, 0, 4)
+
+    def wait(
+        self, name: str | list[str], such: Callable[[Any], bool] = lambda message: True, span_s: float = 20.0
+    ) -> Any:
         until_s = time.monotonic() + span_s
         while time.monotonic() < until_s:
             message = self.link.recv_match(type=name, blocking=True, timeout=0.5)
-            self.link.mav.heartbeat_send(mav.MAV_TYPE_GCS, mav.MAV_AUTOPILOT_INVALID, 0, 0, 4)
+            self.beat()
             if message is not None and such(message):
                 return message
         raise RuntimeError(f"no such {name} within {span_s} s")
@@ -48,6 +55,33 @@ class Station:
             out[value.param_id] = value.param_value
             if len(out) == value.param_count:
                 return out
+
+    def set_parameter(self, name: str, value: float) -> None:
+        self.link.mav.param_set_send(1, 1, name.encode(), value, mav.MAV_PARAM_TYPE_REAL32)
+        self.wait("PARAM_VALUE", lambda m: m.param_id == name and abs(m.param_value - value) < 1e-5, 3.0)
+        self.link.mav.param_request_read_send(1, 1, name.encode(), -1)
+        self.wait("PARAM_VALUE", lambda m: m.param_id == name and abs(m.param_value - value) < 1e-5, 3.0)
+
+    def streams(self) -> None:
+        """Asked for in the old way and in the new; the new one's rate is then told."""
+        self.link.mav.request_data_stream_send(1, 1, mav.MAV_DATA_STREAM_ALL, 4, 1)
+        attitude, interval_us = mav.MAVLINK_MSG_ID_ATTITUDE, 20_000
+        self.command(mav.MAV_CMD_SET_MESSAGE_INTERVAL, attitude, interval_us)
+        self.command(mav.MAV_CMD_GET_MESSAGE_INTERVAL, attitude)
+        self.wait("MESSAGE_INTERVAL", lambda m: m.message_id == attitude and m.interval_us == interval_us, 3.0)
+        before = self.wait("ATTITUDE", span_s=3.0).time_boot_ms
+        self.wait("ATTITUDE", lambda m: m.time_boot_ms - before < 50, 3.0)
+
+    def download(self) -> list[tuple[int, float]]:
+        """Command and height of each item."""
+        self.link.mav.mission_request_list_send(1, 1, 0)
+        items = []
+        for seq in range(self.wait("MISSION_COUNT", span_s=3.0).count):
+            self.link.mav.mission_request_int_send(1, 1, seq, 0)
+            item = self.wait("MISSION_ITEM_INT", lambda m, seq=seq: m.seq == seq, 3.0)
+            items.append((item.command, item.z))
+        self.link.mav.mission_ack_send(1, 1, 0, 0)
+        return items
 
     def upload(self, places: list[tuple[float, float, float]]) -> None:
         self.link.mav.mission_count_send(1, 1, len(places), 0)
@@ -73,7 +107,9 @@ class Station:
 def fly(url: str) -> None:
     station = Station(url)
     station.wait("SYS_STATUS", lambda m: bool(m.onboard_control_sensors_health & 0x10000000))
+    station.streams()
     print("parameters", len(station.parameters()))
+    station.set_parameter("MPC_LAND_SPEED" if station.px4 else "LAND_SPEED", 0.5 if station.px4 else 50.0)
     if not station.px4:
         station.mode(4, 0)
     station.command(mav.MAV_CMD_COMPONENT_ARM_DISARM, 1)
@@ -90,6 +126,9 @@ def fly(url: str) -> None:
         station.hold_at(place, 10.0)
     print("offboard flown")
     station.upload([(lat, lon, 1.5), (lat + 1e-5, lon, 1.5), (lat, lon + 1e-5, 1.5)])
+    back = station.download()[0 if station.px4 else 1 :]  # ArduCopter's first is home
+    if any(each != (16, 1.5) for each in back):
+        raise RuntimeError(f"the mission came back as {back}")
     station.mode(3, 4, 4)
     station.wait("MISSION_ITEM_REACHED", lambda m: m.seq == 2, 40.0)
     print("mission flown")

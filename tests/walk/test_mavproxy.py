@@ -49,8 +49,15 @@ def set_parameter(session: Session, name: str, value: float) -> None:
     wait_for(lambda: parameter(session, name) == pytest.approx(value), 10.0, session.log)
 
 
-def standing_north_m(session: Session) -> float:
-    return float(session.do("status LOCAL_POSITION_NED", r"LOCAL_POSITION_NED {.* x : (-?[\d.e-]+)")[1])
+def position_ned_m(session: Session) -> tuple[float, ...]:
+    found = session.do("status LOCAL_POSITION_NED", r"LOCAL_POSITION_NED {.* x : (\S+), y : (\S+), z : (\S+),")
+    return tuple(float(number) for number in found.groups())
+
+
+def take_off(session: Session, line: str) -> None:
+    session.do("arm throttle", r"^ARMED")
+    session.do(line, r"COMMAND_ACK: (NAV_TAKEOFF|DO_SET_MODE): ACCEPTED")
+    wait_for(lambda: position_ned_m(session)[2] < -0.9, 15.0, session.log)
 
 
 def load_and_list(session: Session) -> None:
@@ -65,8 +72,7 @@ def load_and_list(session: Session) -> None:
 @pytest.mark.parametrize("firmware", ["ardupilot"], indirect=True)
 def test_an_arducopter(session: Session) -> None:
     session.do("mode GUIDED", r"Mode GUIDED")
-    session.do("arm throttle", r"^ARMED")
-    session.do("takeoff 1.2", r"NAV_TAKEOFF: ACCEPTED")
+    take_off(session, "takeoff 1.2")
     set_parameter(session, "RTL_ALT", 120.0)
     session.do("param show BATT_FS*", r"BATT_FS_LOW_ACT +2")
     load_and_list(session)
@@ -74,10 +80,9 @@ def test_an_arducopter(session: Session) -> None:
     session.hear(r"waypoint 3")
     session.hear(r"^DISARMED", 25.0)
     assert "Mode AUTO" in session.log()
-    assert standing_north_m(session) == pytest.approx(1.5, abs=0.3)
+    assert position_ned_m(session)[0] == pytest.approx(1.5, abs=0.3)
     session.do("mode GUIDED", r"Mode GUIDED")
-    session.do("arm throttle", r"^ARMED")
-    session.do("takeoff 1", r"NAV_TAKEOFF: ACCEPTED")
+    take_off(session, "takeoff 1.1")
     session.do("mode LAND", r"Mode LAND")
     session.hear(r"^DISARMED", 25.0)
 
@@ -85,15 +90,13 @@ def test_an_arducopter(session: Session) -> None:
 @pytest.mark.parametrize("firmware", ["px4"], indirect=True)
 def test_a_px4(session: Session) -> None:
     """By the numbers of its modes: MAVProxy 1.8.75 sets none of PX4's by name."""
-    session.do("arm throttle", r"^ARMED")
-    session.do("takeoff 1.2", r"NAV_TAKEOFF: ACCEPTED")
+    take_off(session, "takeoff 1.2")
     set_parameter(session, "MPC_LAND_SPEED", 0.6)
     load_and_list(session)
     session.do("long DO_SET_MODE 1 4 4", r"Mode MISSION")
     session.hear(r"^DISARMED", 30.0)
-    assert standing_north_m(session) == pytest.approx(1.5, abs=0.3)
-    session.do("arm throttle", r"^ARMED")
-    session.do("long DO_SET_MODE 1 4 2", r"Mode TAKEOFF")
+    assert position_ned_m(session)[0] == pytest.approx(1.5, abs=0.3)
+    take_off(session, "long DO_SET_MODE 1 4 2")
     session.do("long DO_SET_MODE 1 4 5", r"Mode RTL")
     session.hear(r"^DISARMED", 30.0)
-    assert abs(standing_north_m(session) - 1.5) < 0.3, "home is where it was armed"
+    assert position_ned_m(session)[0] == pytest.approx(1.5, abs=0.3), "home is where it was armed"

@@ -1,4 +1,4 @@
-"""The camera and the gimbal aboard answer as MAVLink asks of them."""
+"""The camera and the gimbal: what they say of themselves, pictures and turns on command."""
 
 import math
 

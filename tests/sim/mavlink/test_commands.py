@@ -1,4 +1,4 @@
-"""Every command is acknowledged once, to whoever sent it."""
+"""Commands and streams: one acknowledgement each, rates that can be asked for, modes."""
 
 import math
 

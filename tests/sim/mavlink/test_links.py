@@ -1,4 +1,4 @@
-"""Links: who is sent what, ports in use, floods, and clients that go."""
+"""Links and frames: several clients, garbage, lost ends, and signatures."""
 
 import random
 import socket
@@ -26,7 +26,7 @@ def test_port_in_use_says_so():
 
 
 def test_leaving_the_machine_needs_a_word():
-    with pytest.raises(LinkError, match="give --bind an address that others reach"):
+    with pytest.raises(LinkError, match="--bind ADDRESS"):
         UdpOut("192.0.2.1", 14550)
 
 

@@ -1,4 +1,4 @@
-"""The mission protocol: uploads, downloads, wrong orders, and clients that go."""
+"""Plans on the wire: up, down, cleared, lost, out of order, refused and abandoned."""
 
 import math
 

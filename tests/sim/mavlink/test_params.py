@@ -1,4 +1,4 @@
-"""The parameter protocol: lists, types, unknown names, values out of range."""
+"""Parameters on the wire: list, read, set, both encodings, and refusals."""
 
 import math
 

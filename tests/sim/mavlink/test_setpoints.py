@@ -1,4 +1,4 @@
-"""Setpoints, outside poses and sticks reach the autopilot as they were meant."""
+"""Setpoints, sticks and outside poses; clocks, pings and file transfer."""
 
 import math
 

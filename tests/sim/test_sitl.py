@@ -1,0 +1,72 @@
+"""The drone simulator's options and its first lines; that it ends when told."""
+
+import signal
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from sim.sitl import Sitl, main
+from sim.sitl_options import parse
+
+
+def test_links_by_default() -> None:
+    ardupilot, px4 = parse([]), parse(["--firmware", "px4"])
+    assert (ardupilot.tcp, ardupilot.udp_out, ardupilot.bind) == ((5760,), (("127.0.0.1", 14550),), "127.0.0.1")
+    assert (px4.tcp, px4.udp_out) == ((), (("127.0.0.1", 14540), ("127.0.0.1", 14550)))
+    assert parse(["--udp-in", "0"]).tcp == ()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--tcp", "70000"], "is no port"),
+        (["--udp-out", "14550"], "give HOST:PORT"),
+        (["--home", "1,2,3"], "give LAT,LON,ALT,YAW"),
+        (["--home", "91,2,3,0"], "degrees within"),
+        (["--home", "nan,2,3,0"], "give LAT,LON,ALT,YAW"),
+        (["--vehicles", "0"], "give 1 to 10"),
+        (["--scene", "house"], "give empty, or home:SEED"),
+        (["--sign-key", "abc"], "64 hexadecimal digits"),
+        (["--bind", "everywhere"], "give an IPv4 address"),
+        (["--firmware", "inav"], "invalid choice"),
+    ],
+)
+def test_bad_arguments_get_a_sentence(arguments, sentence, capsys) -> None:
+    with pytest.raises(SystemExit) as ended:
+        parse(arguments)
+    assert ended.value.code == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_port_in_use(capsys) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert main(["--udp-in", "0", "--tcp", str(port)]) == 1
+    assert f"TCP port {port} is in use" in capsys.readouterr().err
+
+
+def test_in_a_home() -> None:
+    sitl = Sitl(parse(["--scene", "home:7", "--tcp", "0", "--vehicles", "2", "--gps", "none", "--sign-key", "ab" * 32]))
+    text = "\n".join(sitl.lines())
+    assert "system ids 1 to 2, over home 7" in text
+    assert "no GPS" in text
+    assert "signed with the key" in text
+    for _ in range(240):
+        sitl.flight.step()
+    assert all(firmware.vehicle.on_ground for firmware in sitl.flight.firmwares)
+    sitl.close()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ends_when_told(number) -> None:
+    command = [sys.executable, "-m", "sim.sitl", "--tcp", "0", "--udp-in", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        while not process.stdout.readline().startswith("ready"):
+            assert process.poll() is None
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "Traceback" not in errors

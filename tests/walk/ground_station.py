@@ -35,6 +35,8 @@ class Autopilot:
 
     def __exit__(self, *_: object) -> None:
         end(self._process)
+        assert self._process.returncode == 0, self.log()
+        assert "Traceback" not in self.log(), self.log()
 
     def log(self) -> str:
         return self._log.read_text()
@@ -88,16 +90,15 @@ class Session:
         return self._log.read_text(errors="replace")
 
 
-def fly(script: str, *args: str, folder: Path, limit_s: float = 60.0) -> str:
-    """Runs one of tests/clients/; what it printed, of which the last line is OK."""
-    command = [str(CLIENTS / "python"), str(ROOT / "tests" / "clients" / script), *args]
+def fly(script: str, *args: str, folder: Path, python: str = str(CLIENTS / "python"), limit_s: float = 60.0) -> None:
+    """Runs one of tests/clients/ to its end; the last that it says is OK."""
+    command = [python, str(ROOT / "tests" / "clients" / script), *args]
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=limit_s)
     except subprocess.TimeoutExpired as late:
         pytest.fail(f"{script} took longer than {limit_s} s:\n{late.stdout!r}\n{late.stderr!r}")
     assert done.returncode == 0, f"{script}:\n{done.stdout}\n{done.stderr}"
     assert done.stdout.endswith("OK\n"), done.stdout
-    return done.stdout
 
 
 def end(process: "subprocess.Popen[bytes]") -> None:

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from sim.autopilot.conduct import Conduct
+from sim.autopilot.fence import beyond
 from sim.autopilot.flying import Circle, Climb, Hover, braked
 from sim.autopilot.geo import GLOBAL_FRAMES, HOME_FRAMES, place
 from sim.autopilot.guided import Guided
@@ -89,7 +90,7 @@ def go(conduct: Conduct, command: Command, now_s: float) -> Answer:
     may_change = math.isfinite(command.params[1]) and int(command.params[1]) & 1
     if now.mode != mode and not may_change:
         return Answer(Ack.DENIED, f"Go to refused: it is in mode {now.mode}")
-    target = _target(conduct, command)
+    target = _destination(conduct, command)
     if isinstance(target, Answer):
         return target
     heading = None if math.isnan(yaw) or (guided and yaw == 0.0) else math.remainder(yaw, math.tau)
@@ -186,7 +187,7 @@ def override(conduct: Conduct, command: Command, now_s: float) -> Answer:
     frame = command.params[2]
     if not (math.isfinite(frame) and frame == int(frame)):
         return Answer(Ack.UNSUPPORTED_FRAME)
-    target = _target(conduct, replace(command, frame=int(frame)))
+    target = _destination(conduct, replace(command, frame=int(frame)))
     if isinstance(target, Answer):
         return target
     answer = conduct.choose("hold", now_s)
@@ -223,6 +224,17 @@ def _target(conduct: Conduct, command: Command) -> Vec3 | Answer:
     if isinstance(found, str):
         return Answer(Ack.DENIED, f"Refused: {found}")
     return found[0], found[1], min(found[2], -0.2)
+
+
+def _destination(conduct: Conduct, command: Command) -> Vec3 | Answer:
+    """The place that a command names, where the fence lets it be."""
+    target, now = _target(conduct, command), conduct.now
+    if isinstance(target, Answer):
+        return target
+    if now.params.get("GF_ACTION", 2.0) < 2.0:  # it warns at most
+        return target
+    why = beyond(now.below_ceiling(target), now, conduct.plans.fence)
+    return Answer(Ack.DENIED, f"Refused: that is beyond the fence: {why}") if why else target
 
 
 def _do(conduct: Conduct, what: Hover | Circle, now_s: float, asked: Vec3, name: str) -> Answer:

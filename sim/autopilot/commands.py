@@ -55,6 +55,7 @@ def _home(conduct: Conduct, command: Command, now_s: float) -> Answer:
         if not now.located:
             return Answer(now.row.refused, "Home refused: it needs a position estimate")
         conduct.home_here()
+        now.home_kept = True
         return _ACCEPTED
     found = place(
         0 if command.frame is None else command.frame, command.x, command.y, command.z, now.origin, now.home, now.here
@@ -63,7 +64,7 @@ def _home(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(Ack.UNSUPPORTED_FRAME)
     if isinstance(found, str):
         return Answer(Ack.DENIED, f"Home refused: {found}")
-    now.home_ned_m = found
+    now.home_ned_m, now.home_kept = found, True
     return _ACCEPTED
 
 
@@ -125,7 +126,7 @@ def _fail(conduct: Conduct, command: Command, now_s: float) -> Answer:
     if not conduct.now.params.get("SYS_FAILURE_EN", 1.0):
         return Answer(Ack.DENIED, "Failure injection refused: SYS_FAILURE_EN is 0")
     unit, kind, _, _ = command.params
-    name = _UNITS.get(int(unit)) if math.isfinite(unit) else None
+    name = _UNITS.get(int(unit)) if math.isfinite(unit) and unit == int(unit) else None
     if name is None or kind not in (0.0, 1.0):
         return Answer(Ack.UNSUPPORTED)
     conduct.vehicle.fail(name, kind == 0.0)

@@ -147,7 +147,7 @@ class Conduct:
             return Hover()
         if mode == "takeoff":
             height = max(now.params.get("MIS_TAKEOFF_ALT", 1.0), LOWEST_FLIGHT_M)
-            return Climb(now.below_ceiling((0.0, 0.0, now.home[2] - height))[2])
+            return Climb(now.below_ceiling((0.0, 0.0, now.above_start(height)))[2])
         if mode == "land":
             return Descend()
         if mode == "return":
@@ -222,7 +222,7 @@ class Conduct:
         now.armed, now.armed_since_s = True, now_s
         self._grounded_s = self._tipped_s = None
         self._flown = False
-        if now.located:
+        if now.located and not now.home_kept:
             self.home_here()
         self.vehicle.arm()
         if now.mode != "takeoff":
@@ -249,7 +249,9 @@ class Conduct:
         self.failsafes = Failsafes()
         self.stream = None
         self.plans.mission.restart()
-        first: Mode = "stabilize" if self.now.row.name == "ardupilot" else "hold"
+        now = self.now
+        first: Mode = "stabilize" if now.row.name == "ardupilot" else "hold"
         self.enter(first, now_s)
-        self.now.home_ned_m = None
-        self.now.say(Severity.INFO, self.now.row.banner)
+        now.home_ned_m, now.home_kept, now.speed_mps, now.region_ned_m = None, False, None, None
+        now.origin = now.origin if now.gps == "fused" else None
+        now.say(Severity.INFO, now.row.banner)

@@ -58,7 +58,6 @@ PX4_PARAMS: tuple[Param, ...] = (
     _fixed("MAV_SYS_ID", 1),
     _fixed("SYS_AUTOSTART", 10016),
     _whole("SYS_FAILURE_EN", 0, 0, 1),
-    _whole("COM_ARM_WO_GPS", 1, 0, 2),
     _real("COM_ARM_BAT_MIN", 0, 0, 0.9),
     _real("COM_DISARM_LAND", 2, -1, 20),  # 0 and less: never
     _real("COM_DISARM_PRFLT", 10, -1, 60),

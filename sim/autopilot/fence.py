@@ -99,8 +99,11 @@ def zones(items: list[Item], now: Situation) -> list[Zone] | int:
 
 def breach(now: Situation, fence: list[Zone]) -> str:
     """What is crossed, in words; empty while it is where it may be."""
-    if now.here[2] < -(now.ceiling_m - CLEARANCE_M / 2):
-        return "ceiling"
+    return "ceiling" if now.here[2] < -(now.ceiling_m - CLEARANCE_M / 2) else beyond(now.here, now, fence)
+
+
+def beyond(point: Vec3, now: Situation, fence: list[Zone]) -> str:
+    """What keeps it from a point, the ceiling aside; empty when it may be there."""
     if now.row.name == "ardupilot":
         if not now.params.get("FENCE_ENABLE"):
             return ""
@@ -110,12 +113,12 @@ def breach(now: Situation, fence: list[Zone]) -> str:
         fence = fence if kinds & 4 else []
     else:
         highest, farthest = now.params.get("GF_MAX_VER_DIST"), now.params.get("GF_MAX_HOR_DIST")
-    home, here = now.home, now.here
-    if highest and home[2] - here[2] > highest:
+    home = now.home
+    if highest and home[2] - point[2] > highest:
         return "maximum altitude"
-    if farthest and math.hypot(here[0] - home[0], here[1] - home[1]) > farthest:
+    if farthest and math.hypot(point[0] - home[0], point[1] - home[1]) > farthest:
         return "maximum distance"
-    return _zone(here, fence, now.row.inclusions)
+    return _zone(point, fence, now.row.inclusions)
 
 
 def guards(now: Situation, fence: list[Zone]) -> bool:

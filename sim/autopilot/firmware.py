@@ -69,6 +69,9 @@ class Firmware(Conduct):
         origin = Origin(latitude_deg, longitude_deg, altitude_m)
         if not origin.valid() or self.now.gps == "fused":
             return False
+        if self.now.armed and self.now.origin not in (None, origin):
+            self.now.say(Severity.WARNING, "Origin refused: it is armed, and its places would move")
+            return False
         self.now.origin = origin
         return True
 

@@ -112,10 +112,11 @@ class Descend:
 
 @dataclass(slots=True)
 class GoHome:
-    """Climb to the return height, fly home, wait, land; without a position, land."""
+    """Climb to the return height, fly home or to a rally point, wait, land; without a position, land."""
 
     landing: Descend = field(default_factory=Descend)
     place_ned_m: Vec3 | None = None
+    _refuge_ned_m: Vec3 | None = None
     _leg: str = "climb"
     _height_down_m: float | None = None
     _since_s: float = 0.0
@@ -133,10 +134,11 @@ class GoHome:
             self._leg = "land"
         if self._leg == "land":
             return self.landing.step(now, now_s)
-        home = now.home
+        home = self._refuge_ned_m = self._refuge_ned_m or now.refuge_ned_m
         if self._height_down_m is None:
             height = max(now.quantity("return_height_m"), LOWEST_FLIGHT_M)
-            self._height_down_m = max(min(home[2] - height, now.here[2]), now.top_down_m)
+            down = min(now.home[2] - height, now.here[2])
+            self._height_down_m = now.lowered((home[0], home[1], down), "Return")[2]
             self.place_ned_m = braked(now)
         start = self.place_ned_m or now.here
         place = (start[0], start[1], self._height_down_m)

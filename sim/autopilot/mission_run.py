@@ -105,7 +105,7 @@ class MissionRun:
             self.mission.advance()
         elif now.vehicle.on_ground and item.command not in _ON_GROUND:
             height = now.params.get("MIS_TAKEOFF_ALT", 1.0)
-            self._lifting, self.leg = True, Climb(now.below_ceiling((0.0, 0.0, now.home[2] - height))[2])
+            self._lifting, self.leg = True, Climb(now.below_ceiling((0.0, 0.0, now.above_start(height)))[2])
         else:
             self.leg = self._activity(item, now)
 
@@ -120,7 +120,8 @@ class MissionRun:
         if item.command == LAND:
             return Landing(Travel((target[0], target[1], now.here[2]), now.quantity("acceptance_m")), Descend())
         if item.command == TAKEOFF:
-            down = min(target[2], now.home[2] - LOWEST_FLIGHT_M)
+            lowest = now.above_start(LOWEST_FLIGHT_M) if now.vehicle.on_ground else now.home[2] - LOWEST_FLIGHT_M
+            down = min(target[2], lowest)
             return Climb(now.below_ceiling((0.0, 0.0, down))[2])
         target = now.below_ceiling((target[0], target[1], min(target[2], -0.2)))
         if item.command == LOITER_TURNS:
@@ -153,9 +154,11 @@ class MissionRun:
             self._nose_rad = math.remainder(offset + hand * math.radians(item.params[0]), math.tau)
         elif item.command == SET_HOME and item.params[0] != 1:
             found = spot(item, now)
-            now.home_ned_m = found if isinstance(found, tuple) else now.home_ned_m
+            now.home_ned_m, now.home_kept = (
+                (found, True) if isinstance(found, tuple) else (now.home_ned_m, now.home_kept)
+            )
         elif item.command == SET_HOME:
-            now.home_ned_m = now.here
+            now.home_ned_m, now.home_kept = now.here, True
         else:
             found = None if item.command == REGION_NONE else spot(item, now)
             now.region_ned_m = found if isinstance(found, tuple) else None

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from sim.autopilot.conduct import Conduct
+from sim.autopilot.fence import beyond
 from sim.autopilot.flying import Circle, Climb, Hover, braked
 from sim.autopilot.geo import GLOBAL_FRAMES, HOME_FRAMES, place
 from sim.autopilot.guided import Guided
@@ -27,7 +28,7 @@ def take_off(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(Ack.DENIED, "Takeoff refused: the height is not finite")
     if now.row.takeoff == "guided":
         return _take_off_guided(conduct, command)
-    down = now.home[2] - now.params.get("MIS_TAKEOFF_ALT")
+    down, lifted = now.above_start(now.params.get("MIS_TAKEOFF_ALT")), False
     if not math.isnan(command.z):
         found = place(
             0 if command.frame is None else command.frame, math.nan, math.nan, command.z, now.origin, now.home, now.here
@@ -36,12 +37,13 @@ def take_off(conduct: Conduct, command: Command, now_s: float) -> Answer:
             return Answer(Ack.UNSUPPORTED_FRAME)
         if isinstance(found, str):
             return Answer(Ack.DENIED, f"Takeoff refused: {found}")
-        if found[2] > down:
-            now.say(Severity.NOTICE, "Using minimum takeoff altitude")
+        lifted = found[2] > down
         down = min(down, found[2])
     answer = conduct.choose("takeoff", now_s)
     if answer.result is Ack.ACCEPTED:
-        conduct.activity = Climb(now.below_ceiling((0.0, 0.0, down))[2])
+        if lifted:
+            now.say(Severity.NOTICE, "Using minimum takeoff altitude")
+        conduct.activity = Climb(now.lowered((0.0, 0.0, down), "Takeoff")[2])
     return answer
 
 
@@ -55,8 +57,10 @@ def _take_off_guided(conduct: Conduct, command: Command) -> Answer:
         missing = "armed" if not now.armed else "in guided mode"
         return Answer(now.row.refused, f"Takeoff refused: it is not {missing}")
     down = now.home[2] - max(command.z, LOWEST_FLIGHT_M)
+    if down > now.here[2]:
+        return Answer(now.row.refused, f"Takeoff refused: {command.z:g} m above home is below where it stands")
     conduct.activity.target = None
-    conduct.activity.rest = Climb(now.below_ceiling((0.0, 0.0, down))[2])
+    conduct.activity.rest = Climb(now.lowered((0.0, 0.0, down), "Takeoff")[2])
     return ACCEPTED
 
 
@@ -86,12 +90,12 @@ def go(conduct: Conduct, command: Command, now_s: float) -> Answer:
     may_change = math.isfinite(command.params[1]) and int(command.params[1]) & 1
     if now.mode != mode and not may_change:
         return Answer(Ack.DENIED, f"Go to refused: it is in mode {now.mode}")
-    target = _target(conduct, command)
+    target = _destination(conduct, command)
     if isinstance(target, Answer):
         return target
     heading = None if math.isnan(yaw) or (guided and yaw == 0.0) else math.remainder(yaw, math.tau)
     rest = Hover(now.below_ceiling(target), heading, speed if speed > 0.0 else None)
-    return _do(conduct, rest, now_s)
+    return _do(conduct, rest, now_s, target, "Go to")
 
 
 def orbit(conduct: Conduct, command: Command, now_s: float) -> Answer:
@@ -107,7 +111,8 @@ def orbit(conduct: Conduct, command: Command, now_s: float) -> Answer:
     if isinstance(target, Answer):
         return target
     turns = abs(angle) / math.tau if math.isfinite(angle) and angle else math.inf
-    return _do(conduct, Circle(conduct.now.below_ceiling(target), radius, speed, turns), now_s)
+    circle = Circle(conduct.now.below_ceiling(target), radius, speed, turns)
+    return _do(conduct, circle, now_s, target, "Orbit")
 
 
 def wait(conduct: Conduct, command: Command, now_s: float) -> Answer:
@@ -117,7 +122,7 @@ def wait(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(now.row.refused, "Delay refused: it is not flying")
     if not 0.0 <= span_s <= 86400.0:
         return Answer(Ack.DENIED, f"Delay refused: {span_s:g} s")
-    answer = _do(conduct, Hover(braked(now)), now_s)
+    answer = _do(conduct, Hover(braked(now)), now_s, now.here, "Delay")
     if answer.result is Ack.ACCEPTED:
         conduct.waiting = (command.id, now_s, now_s + span_s)
         return Answer(Ack.IN_PROGRESS)
@@ -136,7 +141,6 @@ def turn(conduct: Conduct, command: Command, now_s: float) -> Answer:
         heading = now.estimate.heading_rad + math.copysign(1.0, hand if hand == -1.0 else 1.0) * heading
     heading = math.remainder(heading, math.tau)
     activity = conduct.activity
-    now.region_ned_m = None
     if isinstance(activity, Hover):
         activity.heading_rad = heading
     elif isinstance(activity, Guided) and isinstance(activity.target, Trajectory):
@@ -146,6 +150,7 @@ def turn(conduct: Conduct, command: Command, now_s: float) -> Answer:
         activity.target, activity.rest = None, Hover(place_ned_m, heading)
     else:
         return Answer(now.row.refused, f"Turn refused: it is in mode {now.mode}")
+    now.region_ned_m = None
     return ACCEPTED
 
 
@@ -182,7 +187,7 @@ def override(conduct: Conduct, command: Command, now_s: float) -> Answer:
     frame = command.params[2]
     if not (math.isfinite(frame) and frame == int(frame)):
         return Answer(Ack.UNSUPPORTED_FRAME)
-    target = _target(conduct, replace(command, frame=int(frame)))
+    target = _destination(conduct, replace(command, frame=int(frame)))
     if isinstance(target, Answer):
         return target
     answer = conduct.choose("hold", now_s)
@@ -221,14 +226,26 @@ def _target(conduct: Conduct, command: Command) -> Vec3 | Answer:
     return found[0], found[1], min(found[2], -0.2)
 
 
-def _do(conduct: Conduct, what: Hover | Circle, now_s: float) -> Answer:
-    """Fly it in the mode that goes to places: guided, or hold."""
-    if conduct.now.row.takeoff == "guided":
-        answer = conduct.choose("offboard", now_s)
-        if answer.result is Ack.ACCEPTED and isinstance(conduct.activity, Guided):
-            conduct.activity.target, conduct.activity.rest = None, what
+def _destination(conduct: Conduct, command: Command) -> Vec3 | Answer:
+    """The place that a command names, where the fence lets it be."""
+    target, now = _target(conduct, command), conduct.now
+    if isinstance(target, Answer):
+        return target
+    if now.params.get("GF_ACTION", 2.0) < 2.0:  # it warns at most
+        return target
+    why = beyond(now.below_ceiling(target), now, conduct.plans.fence)
+    return Answer(Ack.DENIED, f"Refused: that is beyond the fence: {why}") if why else target
+
+
+def _do(conduct: Conduct, what: Hover | Circle, now_s: float, asked: Vec3, name: str) -> Answer:
+    """Fly it in the mode that goes to places: guided, or hold. Says so when what was `asked` lies above the ceiling."""
+    guided = conduct.now.row.takeoff == "guided"
+    answer = conduct.choose("offboard" if guided else "hold", now_s)
+    if answer.result is not Ack.ACCEPTED:
         return answer
-    answer = conduct.choose("hold", now_s)
-    if answer.result is Ack.ACCEPTED:
+    conduct.now.lowered(asked, name)
+    if isinstance(conduct.activity, Guided):
+        conduct.activity.target, conduct.activity.rest = None, what
+    else:
         conduct.activity = what
     return answer

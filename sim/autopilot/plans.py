@@ -47,6 +47,8 @@ class Plans:
             return mission.SEQUENCE
         if kind == 2:
             self._rally = list(items)
+            spots = [mission.spot(item, self._now) for item in items]
+            self._now.rally_ned_m = tuple(spot for spot in spots if isinstance(spot, tuple))
             return mission.ACCEPTED
         zones = fence.zones(items, self._now)
         if isinstance(zones, int):

@@ -33,6 +33,10 @@ class Situation:
     armed_since_s: float = 0.0
     home_ned_m: Vec3 | None = None
     home_heading_rad: float = 0.0
+    home_kept: bool = False
+    """Set by somebody; arming does not move it."""
+    rally_ned_m: tuple[Vec3, ...] = ()
+    """Where it may land instead of at home."""
     speed_mps: float | None = None
     """Asked for by DO_CHANGE_SPEED; None: the parameter's."""
     region_ned_m: Vec3 | None = None
@@ -65,9 +69,25 @@ class Situation:
         """Home, or where it stands as long as there is none."""
         return self.home_ned_m or self.here
 
+    def above_start(self, height_m: float) -> float:
+        """The down coordinate this high above home, and not lower above where it stands."""
+        return min(self.home[2], self.here[2]) - height_m
+
+    @property
+    def refuge_ned_m(self) -> Vec3:
+        """Where a return goes: home or a rally point, whichever is nearer."""
+        north, east, _ = self.here
+        return min((self.home, *self.rally_ned_m), key=lambda point: math.hypot(point[0] - north, point[1] - east))
+
     def below_ceiling(self, point: Vec3) -> Vec3:
         """The point, lowered below the ceiling where it must be."""
         return point[0], point[1], max(point[2], self.top_down_m)
+
+    def lowered(self, point: Vec3, what: str) -> Vec3:
+        """The point below the ceiling; says of `what` that it is flown lower than asked."""
+        if point[2] < self.top_down_m:
+            self.say(Severity.NOTICE, f"{what}: flown at {-self.top_down_m:.1f} m, below the ceiling")
+        return self.below_ceiling(point)
 
     @property
     def top_down_m(self) -> float:

@@ -119,7 +119,11 @@ class Conductor:
             self._moved_s = now_s
         if not running and now_s - self._moved_s > _STUCK_S:
             self._moved_s = now_s
-            self.fail(f"no robot could start any of {', '.join(s.node.id for s in run.ready(now_s))}", now_s)
+            ready = run.ready(now_s)
+            short = [self._dispatch.short_of_power(s, r) for s in ready for r in self._world.fleet.here()]
+            why = next(filter(None, short), "")
+            nodes = ", ".join(s.node.id for s in ready)
+            self.fail(f"no robot could start any of {nodes}{': ' if why else ''}{why}", now_s)
 
     def _finish(self, task: Task, run: PlanRun, now_s: float) -> None:
         task.rename(self._world.things)

@@ -128,6 +128,18 @@ class Dispatch:
             return ""
         return f"the battery of {robot.id} is at {robot.battery:.0%}; {needed:.0%} is needed for the way there and back"
 
+    def without_power(self, ready: Sequence[Step], robots: Sequence[Robot]) -> str:
+        """A sentence, where nothing that is ready can be started for want of power; empty otherwise."""
+        said = []
+        for step in ready:
+            able = [r for r in robots if {step.node.action, *step.node.req_skills} <= set(r.skills)]
+            short = [(r.id, why) for r in able if (why := self.short_of_power(step, r))]
+            if not short or len(short) < len(able):
+                return ""
+            about = step.node.object or step.node.room or ""
+            said += [f"{id} could not {step.node.action} {about}: {why}" for id, why in short]
+        return said[0] if said else ""
+
     def place(self, step: Step) -> Vec3 | None:
         """Where a node takes place."""
         node = step.node

@@ -96,6 +96,11 @@ SECTIONS: tuple[Section, ...] = (
         Claim("one vehicle, times real time", "x", 60, True, lambda d: d["times_real_time"]),
         Claim("ten vehicles, times real time", "x", 5, True, lambda d: d["times_real_time_10_vehicles"]),
     ), ("--png", "out/perf/flight.png")),
+    Section("bench.sitl", "the light SITL and one client", (
+        Claim("command to acknowledgement, median", "ms", 10, False, lambda d: d["answer_ms"]),
+        Claim("one core per vehicle without cameras", "%", 25, False, lambda d: 100.0 * d["core_share_per_vehicle"]),
+        Claim("started after", "s", 3, False, lambda d: d["start_s"]),
+    )),
 )  # fmt: skip
 
 

@@ -39,6 +39,7 @@ class Reporter:
             travelled_m=pose.travelled_m,
             action_steps=pose.action_steps,
             velocity_enu_mps=pose.velocity_enu_mps,
+            path_heights_m=pose.path_heights_m,
             airborne=pose.airborne,
             battery=pose.battery,
         )

@@ -32,6 +32,8 @@ class Pose:
     """Not getting on because of other robots: standing by order, making way, or behind one that is in the way."""
     holding_type: str | None = None
     """What the gripper takes the thing in the hand for, if it can tell."""
+    path_heights_m: tuple[float, ...] = ()
+    """Of what flies: how high it will be at each point of its path."""
     velocity_enu_mps: Vec3 | None = None
     airborne: bool = False
     battery: float | None = None

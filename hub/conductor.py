@@ -18,6 +18,8 @@ from wire.messages.plan import Plan, PlanReply
 
 _HALT_S = 8.0
 _STUCK_S = 45.0
+_POWER_S = 3.0
+"""A battery that does not do for what is left is waited for no longer."""
 _RETRY_S = 1.0
 _REPLANS_PER_FAIL = 8
 _FREE_CODES = frozenset({"not_there", "lost_hub", "interrupted", "cancelled", "closed"})
@@ -117,9 +119,12 @@ class Conductor:
             self._ledger.keep(task, now_s, "command", body, line=f"{body} {_about(step, run)}")
             self._voice.command(command)
             self._moved_s = now_s
-        if not running and now_s - self._moved_s > _STUCK_S:
-            self._moved_s = now_s
-            self.fail(f"no robot could start any of {', '.join(s.node.id for s in run.ready(now_s))}", now_s)
+        if not running and now_s - self._moved_s > _POWER_S:
+            ready = run.ready(now_s)
+            why = self._dispatch.without_power(ready, self._world.fleet.here())
+            if why or now_s - self._moved_s > _STUCK_S:
+                self._moved_s = now_s
+                self.fail(why or f"no robot could start any of {', '.join(s.node.id for s in ready)}", now_s)
 
     def _finish(self, task: Task, run: PlanRun, now_s: float) -> None:
         task.rename(self._world.things)

@@ -1,27 +1,25 @@
 """The hub's process without its shell: events to the parts, deltas, orders and states out, services answered."""
 
 from collections.abc import Sequence
-from math import hypot, inf
+from math import inf
 from pathlib import Path
 
 from hub.conductor import Conductor
 from hub.desk import Desk
+from hub.directions import Directions
 from hub.dispatch import Dispatch
 from hub.hands import Hands
 from hub.journal import Journal
-from hub.kinds import shape
 from hub.ledger import Ledger
 from hub.memory import read_world, write_world
 from hub.recovery import Recovery
-from hub.traffic import Mover, Traffic
 from hub.voice import Voice
 from hub.world import World
 from wire.bus import Event, Node, Presence, Received, Reply, Request
-from wire.messages.command import Command, DeviceCard, GoalsReply, Result, RobotReport, TrafficOrder
+from wire.messages.command import Command, DeviceCard, GoalsReply, Result, RobotReport
 from wire.messages.driver import DeviceReport
 from wire.messages.observation import ObservationBatch
 from wire.messages.plan import PlanReply
-from wire.model import Vec2
 from wire.site import Site, state_dir
 
 _TRAFFIC_S = 0.2
@@ -29,7 +27,6 @@ _SNAPSHOT_S = 5.0
 _STATE_S = 1.0
 _CARD_S = 3.0
 _EARLY_S = 1e-6
-_OTHERS_M = 4.0
 
 
 class Coordinator:
@@ -39,14 +36,13 @@ class Coordinator:
         self._site, self._id, self._journal = site, process_id, journal
         self.world = World(site, seed=0)
         self._dispatch = Dispatch(self.world.floor, self.world.things)
-        self._traffic = Traffic(self.world.floor, self._blocked)
+        self._directions = Directions(site, self.world.floor, self.world.things)
         self._asked_card_s: dict[str, float] = {}
         self._devices = {p.id for p in site.process if p.role in ("robot", "cctv")}
         self._others = {p.id for p in site.process} - self._devices
         self._planners = {p.id for p in site.process if p.role == "planner"}
         self._due = {"traffic": 0.0, "snapshot": 0.0, "state": 0.0}
         self._now_s = 0.0
-        self._orders = 0
         self._restored = False
 
     def start(self, node: Node) -> None:
@@ -185,38 +181,8 @@ class Coordinator:
             self._conductor.changed(changed, now_s)
 
     def _direct_traffic(self, now_s: float) -> None:
-        robots = sorted(self.world.fleet.here(), key=lambda r: r.id)
-        movers = [Mover(r.id, r.xy, r.path_m, r.radius_m) for r in robots]
-        rulings = self._traffic.rule(movers, now_s)
-        self._orders += 1
-        for mover in movers:
-            ruling = rulings[mover.id]
-            near = tuple(
-                m.position_m
-                for m in movers
-                if m.id != mover.id
-                and hypot(m.position_m[0] - mover.position_m[0], m.position_m[1] - mover.position_m[1]) < _OTHERS_M
-            )
-            order = TrafficOrder(
-                robot=mover.id,
-                seq=self._orders,
-                stamp_s=now_s,
-                go=ruling.go,
-                step_aside_m=ruling.step_aside_m,
-                others_m=near,
-                because=ruling.because,
-            )
-            self._node.publish("traffic", order, mover.id)
-
-    def _blocked(self, point_m: Vec2, radius_m: float) -> bool:
-        """Whether known furniture stands there."""
-        for thing in self.world.things.near(point_m[0], point_m[1], 1.6):
-            known = shape(thing.type)
-            if known.kind == "pickup" or thing.z - known.height_m / 2.0 > 1.0:
-                continue
-            if hypot(thing.x - point_m[0], thing.y - point_m[1]) < 0.85 * known.half_diagonal_m + radius_m:
-                return True
-        return False
+        for order in self._directions.orders(self.world.fleet.here(), now_s):
+            self._node.publish("traffic", order, order.robot)
 
 
 def build(site: Site, process_id: str, journal: Path | None = None) -> Coordinator:

@@ -11,6 +11,7 @@ from hub.kinds import BLADES
 from hub.plan import PlanRun, Step
 from hub.things import Things
 from wire.frames import wrap_rad
+from wire.messages.plan import FROM_ABOVE
 from wire.model import Vec2, Vec3
 
 _STOLEN_M = 6.0
@@ -22,8 +23,17 @@ _OTHER_ERRAND_M = 5.0
 _TURN_M_PER_RAD = 0.25
 _TILT_M_PER_RAD = 0.1
 _MAST_M = 1.3
+_COMING_DOWN = ("land", "return_home", "hold")
+"""What a drone does on its last charge, too."""
 _HORIZON_RAD = 0.3
 _MOST_READY = 64
+_TAKE_OFF_M = 3.0
+"""Getting up is as dear as this much way."""
+_FROM_BELOW_M = 6.0
+"""Looks from above are rather for those who fly."""
+_ENDURANCE_S, _AT_WORK_S, _RESERVE = 480.0, 30.0, 0.2
+"""A full battery keeps a small drone in the air so long; a task there takes so long; this much is left in the end."""
+_USUAL_MPS = 0.8
 
 
 class Dispatch:
@@ -53,7 +63,11 @@ class Dispatch:
             return FORBIDDEN
         if not self._hands_suit(run, step, robot):
             return FORBIDDEN
+        if self.short_of_power(step, robot):
+            return FORBIDDEN
         cost = self._way(step, robot)
+        if node.action in FROM_ABOVE and not robot.flies:
+            cost += _FROM_BELOW_M
         preferred = node.preferred_robot
         if preferred is not None and preferred != robot.id and preferred in present and node.action != "put":
             waited_s = now_s - (step.ready_s if step.ready_s is not None else now_s)
@@ -90,9 +104,41 @@ class Dispatch:
         walk_m = self.distances.walk_m(robot.xy, (place[0], place[1]))
         if walk_m == inf:
             return FORBIDDEN
+        if robot.flies:
+            return walk_m + (0.0 if robot.airborne else _TAKE_OFF_M)
         turn = abs(wrap_rad(atan2(place[1] - robot.xy[1], place[0] - robot.xy[0]) - robot.yaw_rad)) / pi
         tilt = abs(atan2(_MAST_M - place[2], 1.0) - _HORIZON_RAD)
         return walk_m + _TURN_M_PER_RAD * turn * pi + _TILT_M_PER_RAD * tilt
+
+    def short_of_power(self, step: Step, robot: Robot) -> str:
+        """Why the battery of what flies does not do for the way there and back; empty where it does or is not told.
+
+        Back is where it last stood. What is down to its reserve is sent nowhere, whatever the way.
+        """
+        if not robot.flies or robot.battery is None or step.node.action in _COMING_DOWN:
+            return ""
+        place = self.place(step)
+        there = (place[0], place[1]) if place is not None else robot.xy
+        way_m = self.distances.walk_m(robot.xy, there) + self.distances.walk_m(there, robot.home_m or robot.xy)
+        if way_m == inf:
+            return ""
+        seconds = way_m / min(robot.speed_mps or _USUAL_MPS, _USUAL_MPS) + _AT_WORK_S
+        needed = _RESERVE + seconds / _ENDURANCE_S
+        if robot.battery >= needed:
+            return ""
+        return f"the battery of {robot.id} is at {robot.battery:.0%}; {needed:.0%} is needed for the way there and back"
+
+    def without_power(self, ready: Sequence[Step], robots: Sequence[Robot]) -> str:
+        """A sentence, where nothing that is ready can be started for want of power; empty otherwise."""
+        said = []
+        for step in ready:
+            able = [r for r in robots if {step.node.action, *step.node.req_skills} <= set(r.skills)]
+            short = [(r.id, why) for r in able if (why := self.short_of_power(step, r))]
+            if not short or len(short) < len(able):
+                return ""
+            about = step.node.object or step.node.room or ""
+            said += [f"{id} could not {step.node.action} {about}: {why}" for id, why in short]
+        return said[0] if said else ""
 
     def place(self, step: Step) -> Vec3 | None:
         """Where a node takes place."""

@@ -105,6 +105,11 @@ class Robot:
         return self.holding or self.inventory is not None
 
     @property
+    def speed_mps(self) -> float:
+        """As its card says; nought where it does not."""
+        return self.card.speed_mps if self.card is not None else 0.0
+
+    @property
     def radius_m(self) -> float:
         return self.card.radius_m if self.card is not None and self.card.radius_m > 0.0 else 0.38
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from math import hypot
 
 from hub.floor import Doorway, FloorPlan
+from hub.movers import Mover, Ruling, share_height
 from hub.parking import Parking
 from hub.ways import cut, path_to_path_m, point_to_path_m
 from wire.model import Vec2
@@ -31,32 +32,6 @@ _SWAP_S = 4.0
 _STIR_M = 0.1
 _STUCK_S, _STILL_S = 5.0, 3.0
 _REIGN_S = 6.0
-
-
-@dataclass(frozen=True, slots=True)
-class Mover:
-    """One robot as traffic sees it."""
-
-    id: str
-    position_m: Vec2
-    path_m: tuple[Vec2, ...]
-    """What is left of its way, nearest first; empty when it wants nothing."""
-    radius_m: float = 0.38
-
-    @property
-    def way(self) -> list[Vec2]:
-        return [self.position_m, *self.path_m]
-
-
-@dataclass(frozen=True, slots=True)
-class Ruling:
-    """What one robot is told."""
-
-    go: bool
-    step_aside_m: Vec2 | None = None
-    because: str = ""
-    held_by: str = ""
-    """Who is waited for."""
 
 
 @dataclass
@@ -102,7 +77,9 @@ class Traffic:
         rulings: dict[str, Ruling] = {}
         self._moves = {m.id: [m.position_m] for m in movers}
         for index, mover in enumerate(order):
-            ruling = rulings[mover.id] = self._rule_one(mover, order[:index], movers, now_s)
+            before = [m for m in order[:index] if share_height(m, mover)]
+            met = [m for m in movers if share_height(m, mover)]
+            ruling = rulings[mover.id] = self._rule_one(mover, before, met, now_s)
             if ruling.go:
                 way = mover.way if ruling.step_aside_m is None else _way_aside(mover, ruling.step_aside_m)
                 self._moves[mover.id] = cut(way, _SWEPT_M)

@@ -55,6 +55,7 @@ class Craft:
         self.found: Found | None = None
         self.order: TrafficOrder | None = None
         self.path_m: tuple[Vec2, ...] = ()
+        self.path_heights_m: tuple[float, ...] = ()
         self.note, self.fraction = "", 0.0
         self.travelled_m, self.action_steps = 0.0, 0
         self.pictures: deque[Pictured] = deque(maxlen=16)
@@ -117,6 +118,22 @@ class Craft:
         return self.order is None or self.order.go
 
     @property
+    def level_m(self) -> float | None:
+        """The height to travel at that the hub's traffic has given it; None where nobody else flies."""
+        return self.order.height_m if self.order is not None else None
+
+    @property
+    def cruise_m(self) -> float:
+        """Where it flies when nobody says how high."""
+        usual_m = self.row.flight_height_m
+        return usual_m if self.level_m is None else max(usual_m, min(self.level_m, self.space.top_m(self.position_m)))
+
+    @property
+    def column_taken(self) -> bool:
+        """Somebody stands or passes under or over it: neither up nor down."""
+        return self.order is not None and self.order.column_taken
+
+    @property
     def taken_over(self) -> bool:
         """The autopilot, or a person at its remote control, flies it otherwise than it is steered from here."""
         return self.steered and self._other_mode_s is not None and self.now_s - self._other_mode_s > MODE_S
@@ -152,7 +169,7 @@ class Craft:
         others = self.flown_by_others
         where_m, self.stop_m = self.stop_m or self.standing_m, None
         self.moving = self.steered = False
-        self.path_m, self._landing = (), None
+        self.path_m, self.path_heights_m, self._landing = (), (), None
         if self.airborne and not others:
             self.ask(Hover(Setpoint(where_m, (0.0, 0.0, 0.0), self.yaw_rad)))
         elif not others and self.telemetry is not None and self.telemetry.armed:
@@ -173,7 +190,7 @@ class Craft:
             return
         refused = self._landing is not None and bool(self._landing.reason)
         if self._landing is None or (refused and self.now_s - self._landing_s > ASK_AGAIN_S):
-            self.path_m, self.stop_m = (), None
+            self.path_m, self.path_heights_m, self.stop_m = (), (), None
             self._landing, self._landing_s = self.ask(Land()), self.now_s
 
     @property

@@ -10,7 +10,7 @@ from devices.drone.course import DEFAULT, Course, Limits, along_legs
 from devices.drone.craft import Craft
 from devices.drone.follow import LONGEST_STEP_S, Follower, turned
 from devices.drone.pilot import Arm, Disarm, Order, Setpoint, Steer, TakeOff
-from devices.drone.route import find_way
+from devices.drone.route import find_way, nearest_open
 from devices.worker import Outcome
 from wire.frames import bearing_rad, wrap_rad
 from wire.messages.command import ReasonCode
@@ -32,6 +32,8 @@ TURN_S = 10.0
 SIGHT_MPS = 0.2
 """Slower than this it is not turned into its way."""
 LANDED_S, LANDING_REFUSED_S = 4.0, 10.0
+SPOT_SLACK_M = 0.3
+"""As near as this to a place to land at is there."""
 STILL = (0.0, 0.0, 0.0)
 
 
@@ -79,6 +81,9 @@ def get_up(craft: Craft, height_m: float) -> Trouble:
     top_m = craft.space.top_m(craft.position_m)
     if height_m > top_m:
         return failed("precondition", f"{height_m:.1f} m is too high here: at most {top_m:.1f} m under the ceiling")
+    while craft.column_taken:
+        craft.note = "waiting to take off: somebody is over it"
+        yield
     craft.note = f"taking off to {height_m:.1f} m"
     if craft.telemetry is not None and not craft.telemetry.armed:
         if reason := (yield from obey(craft, Arm())):
@@ -102,11 +107,11 @@ def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limi
     """To a place by a way that is clear of walls and goes through doors; up first where it stands on the ground."""
     if fault := craft.space.fault(goal_m):
         return failed("unreachable", fault)
-    trouble = yield from get_up(craft, min(craft.row.flight_height_m, craft.space.top_m(craft.position_m)))
+    trouble = yield from get_up(craft, min(craft.cruise_m, craft.space.top_m(craft.position_m)))
     if trouble is not None:
         return trouble
     start_m = craft.standing_m
-    way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m)
+    way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m, craft.level_m)
     if way is None:
         where = f"({goal_m[0]:.1f}, {goal_m[1]:.1f}) at {goal_m[2]:.1f} m"
         return failed("unreachable", f"there is no way to {where} that the drone fits through")
@@ -148,7 +153,8 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
             yaw_rad = turned(yaw_rad, wanted_rad, min(craft.now_s - stepped_s, LONGEST_STEP_S))
         stepped_s = craft.now_s
         craft.fly(Setpoint(position_m, velocity_mps, yaw_rad))
-        craft.stop_m, craft.path_m = follower.stop_m, _path(course, follower.clock_s)
+        craft.stop_m = follower.stop_m
+        _tell_path(craft, course, follower.clock_s)
         craft.fraction = follower.fraction
         yield
         if craft.taken_over and craft.telemetry is not None:
@@ -157,7 +163,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
         if follower.late_s > LATE_S:
             off_m = dist(craft.position_m, course.at(follower.clock_s)[0])
             return failed("blocked", f"does not get on: {off_m:.1f} m from where it should be{craft.why()}")
-    craft.path_m = ()
+    craft.path_m, craft.path_heights_m = (), ()
     return None
 
 
@@ -194,7 +200,10 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
 
 
 def come_down(craft: Craft) -> Trouble:
-    """Land where it is, and rotors off."""
+    """Land where it is, or near by where somebody stands below, and rotors off."""
+    trouble = yield from _find_ground(craft)
+    if trouble is not None:
+        return trouble
     begun_s = craft.now_s
     while craft.airborne:
         craft.note = "landing"
@@ -211,7 +220,25 @@ def come_down(craft: Craft) -> Trouble:
     return None
 
 
-def _path(course: Course, clock_s: float) -> tuple[Vec2, ...]:
+def _find_ground(craft: Craft) -> Trouble:
+    """Wait until nobody is below, or fly to where nobody is. What was begun is landed where it is."""
+    while craft.airborne and not craft.landing and craft.column_taken:
+        craft.note = "waiting to land: it is not free below"
+        spot_m = craft.order.land_at_m if craft.order is not None else None
+        goal_m = nearest_open(craft.space, (*spot_m, craft.position_m[2]), SPOT_SLACK_M) if spot_m is not None else None
+        if goal_m is not None and dist(goal_m, craft.position_m) > SPOT_SLACK_M:
+            craft.note = "flying to where it is free to land"
+            trouble = yield from go_to(craft, goal_m)
+            if trouble is not None:
+                return trouble
+        else:
+            yield
+    return None
+
+
+def _tell_path(craft: Craft, course: Course, clock_s: float) -> None:
     """What is left of it, a corner every half metre."""
     left = course.left_m(clock_s)
-    return tuple((p[0], p[1]) for p in [*left[:-1:10], left[-1]][1:])
+    points = [*left[:-1:10], left[-1]][1:]
+    craft.path_m = tuple((p[0], p[1]) for p in points)
+    craft.path_heights_m = tuple(round(p[2], 2) for p in points)

@@ -89,7 +89,7 @@ def way_points(text: str) -> list[Vec3]:
 
 def take_off(craft: Craft, command: Command) -> Skilled:
     """Take off and hover."""
-    height_m = float(command.params.get("height_m") or craft.row.flight_height_m)
+    height_m = float(command.params.get("height_m") or craft.cruise_m)
     if craft.airborne:
         return Outcome("done", "already", f"in the air already, at {craft.position_m[2]:.1f} m")
     trouble = yield from get_up(craft, height_m)
@@ -106,7 +106,7 @@ def land(craft: Craft, command: Command) -> Skilled:
 
 def goto(craft: Craft, command: Command) -> Skilled:
     """Fly to a point, into a room, or near an object and face it; through doors, clear of walls. Takes off if needed."""
-    height_m = float(command.params.get("height_m") or craft.row.flight_height_m)
+    height_m = float(command.params.get("height_m") or craft.cruise_m)
     middle_m, name = place_of(craft, command)
     craft.note = f"flying to {name}"
     goal_m = near_target(craft, middle_m, height_m) if command.target else place_to_be(craft, command, height_m)
@@ -162,9 +162,9 @@ def return_home(craft: Craft, command: Command) -> Skilled:
         return Outcome("done", "already", "on the ground already")
     if craft.home_m is None:
         return failed("precondition", "it was in the air already when this process began, so home is not known")
-    home_m = (*craft.home_m[:2], min(craft.row.flight_height_m, craft.space.top_m(craft.home_m)))
+    home_m = (*craft.home_m[:2], min(craft.cruise_m, craft.space.top_m(craft.home_m)))
     craft.note = "flying home"
-    way = yield from find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m)
+    way = yield from find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m, craft.level_m)
     if way is None:
         return failed("unreachable", "there is no way home that the drone fits through")
     trouble = yield from fly(craft, Course(along_legs(way)), ahead)

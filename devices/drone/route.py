@@ -25,14 +25,18 @@ Seeking = Generator[None, None, list[Point] | None]
 _STEPS = tuple((i, j, hypot(i, j)) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j)
 
 
-def find_way(space: Airspace, start_m: Vec3, goal_m: Vec3, travel_m: float) -> Seeking[Vec3]:
+def find_way(
+    space: Airspace, start_m: Vec3, goal_m: Vec3, travel_m: float, level_m: float | None = None
+) -> Seeking[Vec3]:
     """Corner points from start to goal, both included; None when there is no way. Yields now and then: a large building
     takes seconds.
 
-    At the goal's height where it is possible all the way, otherwise at `travel_m`, otherwise below every lintel.
+    At the level that it has been given, if any, else at the goal's height, where that is possible all the way; otherwise
+    at `travel_m`, otherwise below every lintel.
     """
     lintels = [space.top_m(middle_m(door.start_m, door.end_m)) for door in space.doors]
-    for height_m in dict.fromkeys([goal_m[2], travel_m, *sorted(lintels)[:1]]):
+    given = [level_m] if level_m is not None else []
+    for height_m in dict.fromkeys([*given, goal_m[2], travel_m, *sorted(lintels)[:1]]):
         level = (yield from _level_way(space, start_m, goal_m, height_m)) if height_m >= LEAST_HEIGHT_M else None
         if level is not None:
             corners = [(x, y, height_m) for x, y in level]

@@ -111,15 +111,17 @@ class DroneWorker:
         if craft.telemetry is None:
             return None
         held = craft.airborne and not craft.may_move
+        kept = self._skill is not None and craft.column_taken and not craft.landing and not craft.path_m
         return Pose(
             position_enu_m=craft.position_m,
             yaw_rad=craft.yaw_rad,
             path_m=craft.path_m,
+            path_heights_m=craft.path_heights_m,
             travelled_m=craft.travelled_m,
             action_steps=craft.action_steps,
             holding=False,
             standing_by_order=held,
-            held_up=held or self._aside_m is not None,
+            held_up=held or kept or self._aside_m is not None,
             velocity_enu_mps=craft.velocity_mps,
             airborne=craft.airborne,
             battery=craft.telemetry.battery,

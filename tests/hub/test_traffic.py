@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hub.floor import FloorPlan
+from hub.movers import Mover
 from hub.parking import Parking
-from hub.traffic import Mover, Traffic
+from hub.traffic import Traffic
 from tests.hub.scenes import flat
 from tests.hub.toys import STEP_M, way
 from wire.model import Vec2
@@ -90,7 +91,7 @@ def test_an_idle_robot_leaves_a_full_room() -> None:
     assert walkers[1].xy[0] > 4.0
 
 
-def _spread(rng: random.Random, count: int) -> list[Vec2]:
+def spread(rng: random.Random, count: int) -> list[Vec2]:
     spots: list[Vec2] = []
     while len(spots) < count:
         spot = (rng.uniform(0.6, 11.4), rng.uniform(0.6, 3.4))
@@ -105,7 +106,7 @@ def _spread(rng: random.Random, count: int) -> list[Vec2]:
 def test_teams_through_doors(count: int) -> None:
     for seed in range(8):
         rng = random.Random(100 * count + seed)
-        starts, goals = _spread(rng, count), _spread(rng, count)
+        starts, goals = spread(rng, count), spread(rng, count)
         walkers = [_Walker(f"dog-{i}", starts[i], goals[i]) for i in range(count)]
         least, steps = _play(walkers)
         assert least > 0.0, (seed, least)
@@ -116,7 +117,7 @@ def test_teams_through_doors(count: int) -> None:
 @settings(max_examples=15, deadline=None)
 def test_random_teams(seed: int, count: int) -> None:
     rng = random.Random(seed)
-    starts, goals = _spread(rng, count), _spread(rng, count)
+    starts, goals = spread(rng, count), spread(rng, count)
     least, steps = _play([_Walker(f"dog-{i}", starts[i], goals[i]) for i in range(count)])
     assert least > 0.0
     assert steps < 4000

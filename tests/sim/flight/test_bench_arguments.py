@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import cv2
+
 from sim.flight.bench import hold_rms_m, straight, what_is_wrong
 from sim.flight.plot import draw_steps
 

@@ -20,6 +20,7 @@ demo *args: install
 # lint, types, import rules and all tests
 [group('start here')]
 test *args: install
+    ./deploy/install_clients.sh
     {{ python }} -m ruff check .
     {{ python }} -m ruff format --check .
     {{ python }} -m mypy
@@ -97,6 +98,11 @@ view *args: install
 record *args: install
     {{ python }} -m console record "$@"
 
+# a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
+[group('fly')]
+sitl *args: install
+    {{ python }} -m sim.sitl "$@"
+
 # list the site files there are; `up NAME` starts one (--json)
 [group('sites')]
 sites *args: install
@@ -130,8 +136,10 @@ fmt: install
     {{ python }} -m wire.protocol_page docs/protocol.md
     {{ python }} -m deploy.notice
 
-# renew requirements.lock from pyproject.toml
+# renew requirements.lock from pyproject.toml, and clients.lock from clients.in
 [group('develop')]
 lock:
     uv pip compile -q --python-version 3.11 --python-platform x86_64-manylinux_2_28 --generate-hashes \
         --no-header --no-annotate --no-emit-index-url --extra all --extra bench --extra dev pyproject.toml -o requirements.lock
+    uv pip compile -q --python-version 3.11 --python-platform x86_64-manylinux_2_28 --generate-hashes \
+        --no-header --no-annotate --no-emit-index-url --excludes clients.excludes clients.in -o clients.lock

@@ -1,5 +1,6 @@
 """How much of each room has been looked at, by whom and when: views painted on a quarter-metre grid of bits."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import ceil, floor
 
@@ -28,6 +29,8 @@ class _Area:
     stamp_s: float | None = None
     source: str | None = None
     searched: bool = False
+    from_above: set[str] = field(default_factory=set)
+    """Names of the fields of `AreaState` that robots in the air have made true in this task."""
     shown: AreaState | None = None
     touched: bool = True
 
@@ -82,6 +85,14 @@ class Areas:
         for area in self._areas:
             area.robots = [0] * len(area.rows)
             area.searched, area.touched = False, True
+            area.from_above.clear()
+
+    def flown_over(self, room: str, how: str, robot: str, stamp_s: float) -> None:
+        """`how`: `seen_from_above` or `surveyed`."""
+        area = self._by_id.get(room)
+        if area is not None:
+            area.from_above.add(how)
+            area.source, area.stamp_s, area.touched = robot, stamp_s, True
 
     def search_done(self, room: str, robot: str, stamp_s: float) -> None:
         area = self._by_id.get(room)
@@ -96,6 +107,17 @@ class Areas:
 
     def searched(self) -> tuple[str, ...]:
         return tuple(area.room.id for area in self._areas if area.searched)
+
+    def from_above(self) -> dict[str, list[str]]:
+        """Of the rooms that were flown over: how. For the journal."""
+        return {area.room.id: sorted(area.from_above) for area in self._areas if area.from_above}
+
+    def remember_from_above(self, room: str, how: Iterable[str]) -> None:
+        """As an earlier run of the hub knew it."""
+        area = self._by_id.get(room)
+        if area is not None:
+            area.from_above.update(how)
+            area.touched = True
 
     def states(self) -> tuple[AreaState, ...]:
         return tuple(_state(area) for area in self._areas)
@@ -159,12 +181,14 @@ def _state(area: _Area) -> AreaState:
         stamp_s=area.stamp_s,
         source=area.source,
         searched=area.searched,
+        seen_from_above="seen_from_above" in area.from_above,
+        surveyed="surveyed" in area.from_above,
     )
 
 
 def _differs(a: AreaState, b: AreaState) -> bool:
     return (
-        a.searched != b.searched
+        (a.searched, a.seen_from_above, a.surveyed) != (b.searched, b.seen_from_above, b.surveyed)
         or abs(a.seen_fraction - b.seen_fraction) >= 0.02
         or abs(a.camera_fraction - b.camera_fraction) >= 0.02
         or (b.stamp_s or 0.0) - (a.stamp_s or 0.0) >= 5.0

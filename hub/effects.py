@@ -6,7 +6,7 @@ from hub.facts import handle
 from hub.records import Thing
 from hub.world import World
 from wire.messages.command import Result
-from wire.messages.plan import KNOWN_ACTIONS, Action, PlanNode
+from wire.messages.plan import FROM_ABOVE, KNOWN_ACTIONS, Action, PlanNode
 
 CHANGES: dict[Action, tuple[str, bool]] = {
     "open": ("isOpen", True),
@@ -23,12 +23,25 @@ _SURE_BELIEF = 3.5
 
 def apply(world: World, node: PlanNode, robot: str, result: Result, types: Mapping[str, str]) -> None:
     """Take the end of a goal into W. `types`: of the things in the plan, in case W has lost one meanwhile."""
+    if node.action in FROM_ABOVE and result.status == "done":
+        _looked_down(world, node, robot, result)
     if node.action not in KNOWN_ACTIONS:
         return  # what it changed, observations will say
     if result.status == "done" or result.code == "already":
         _succeeded(world, node, robot, result, types)
     elif result.status == "failed":
         _failed(world, node, robot, result)
+
+
+def _looked_down(world: World, node: PlanNode, robot: str, result: Result) -> None:
+    """A room or a thing has been flown over, says who has flown: what was seen there, observations say."""
+    thing = world.things.get(world.things.standing_for(node.object)) if node.object is not None else None
+    if thing is not None and FROM_ABOVE[node.action] == "seen_from_above":
+        thing.from_above = True
+        thing.version += 1
+        world.things.touch(thing)
+    if node.room is not None and node.object is None:
+        world.areas.flown_over(node.room, FROM_ABOVE[node.action], robot, result.stamp_s)
 
 
 def _succeeded(world: World, node: PlanNode, robot: str, result: Result, types: Mapping[str, str]) -> None:

@@ -13,6 +13,8 @@ from wire.model import Vec2, Vec3
 _LOST_S = 3.0
 _BODY_M = 0.45
 _BODY_HEIGHT_M = 0.55
+_FLYER_HALF_M = 0.35
+"""Above and below what flies."""
 _MEET_S = 4.0
 _AGAIN_S = 1.0
 """A robot of which nothing changes is shown again after this."""
@@ -23,12 +25,16 @@ class Robot:
 
     __slots__ = (
         "action_steps",
+        "airborne",
+        "battery",
         "card",
         "goal_id",
         "holding",
         "holding_type",
+        "home_m",
         "id",
         "inventory",
+        "path_heights_m",
         "path_m",
         "position_m",
         "present",
@@ -37,6 +43,7 @@ class Robot:
         "status",
         "told",
         "travelled_m",
+        "velocity_mps",
         "yaw_rad",
     )
 
@@ -52,6 +59,13 @@ class Robot:
         self.inventory: str | None = None
         self.goal_id: str | None = None
         self.path_m: tuple[Vec2, ...] = ()
+        self.path_heights_m: tuple[float, ...] = ()
+        """Of what flies: how high it will be at each point of its path."""
+        self.airborne = False
+        self.battery: float | None = None
+        self.velocity_mps: Vec3 = (0.0, 0.0, 0.0)
+        self.home_m: Vec2 | None = None
+        """Where what flies last stood on the ground."""
         self.travelled_m = 0.0
         self.action_steps = 0
         self.stamp_s = -1.0
@@ -68,7 +82,7 @@ class Robot:
         """All that a reader is told, apart from when it was said."""
         return (
             self.position_m, self.yaw_rad, self.status, self.inventory, self.goal_id, self.path_m, self.travelled_m,
-            self.action_steps, self.card,
+            self.action_steps, self.card, self.airborne, self.battery,
         )  # fmt: skip
 
     @property
@@ -80,6 +94,10 @@ class Robot:
         payload_kg = self.card.payload_kg if self.card is not None else 0.0
         parameters = {skill.name: skill.parameters for skill in self.card.skills} if self.card is not None else {}
         return Ability(self.skills, payload_kg if payload_kg > 0.0 else inf, parameters)
+
+    @property
+    def flies(self) -> bool:
+        return "take_off" in self.skills and "land" in self.skills
 
     @property
     def full_handed(self) -> bool:
@@ -110,6 +128,9 @@ class Fleet:
         robot.status, robot.holding, robot.goal_id = report.status, report.holding, report.goal_id
         robot.path_m, robot.holding_type = report.path_m, report.holding_type
         robot.travelled_m, robot.action_steps = report.travelled_m, report.action_steps
+        robot.airborne, robot.battery, robot.path_heights_m = report.airborne, report.battery, report.path_heights_m
+        robot.velocity_mps = report.velocity_enu_mps or (0.0, 0.0, 0.0)
+        robot.home_m = robot.home_m if report.airborne else robot.xy
         robot.stamp_s, robot.present = report.stamp_s, True
         return robot
 
@@ -136,9 +157,7 @@ class Fleet:
 
     def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""
-        x, y, z = point_enu_m
-        bodies = [r.position_m for r in self.here()]
-        return z < _BODY_HEIGHT_M and any(hypot(b[0] - x, b[1] - y) < _BODY_M for b in bodies)
+        return any(_body_at(robot, point_enu_m) for robot in self.here())
 
     def here(self) -> list[Robot]:
         """Robots that have not gone away."""
@@ -190,7 +209,17 @@ class Fleet:
             goal_id=robot.goal_id,
             travelled_m=robot.travelled_m,
             action_steps=robot.action_steps,
+            airborne=robot.airborne,
+            battery=round(robot.battery, 2) if robot.battery is not None else None,
         )
+
+
+def _body_at(robot: Robot, point_enu_m: Vec3) -> bool:
+    """On the floor a body reaches up from it; in the air it is around where the robot is, and the floor is free."""
+    x, y, z = point_enu_m
+    bx, by, bz = robot.position_m
+    tall = abs(z - bz) < _FLYER_HALF_M if robot.airborne else z < _BODY_HEIGHT_M
+    return tall and hypot(bx - x, by - y) < _BODY_M
 
 
 def _differs(a: RobotState, b: RobotState) -> bool:

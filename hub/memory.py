@@ -22,6 +22,7 @@ def write_world(world: World) -> str:
             "things": [_write_thing(t) for t in world.things if t.shown >= 0],
             "hands": {id: r.inventory for id, r in sorted(world.fleet.robots.items()) if r.inventory is not None},
             "searched": world.areas.searched(),
+            "from_above": world.areas.from_above(),
             "trust": {source: list(counts) for source, counts in sorted(world.trust.counts().items())},
             "seq": world.seq,
             "merged": world.things.merged,
@@ -39,6 +40,8 @@ def read_world(world: World, text: str) -> None:
         world.fleet.robot(robot).inventory = item
     for room in data["searched"]:
         world.areas.remember_searched(room)
+    for room, how in data.get("from_above", {}).items():
+        world.areas.remember_from_above(room, how)
     world.trust.restore({source: (right, wrong) for source, (right, wrong) in data["trust"].items()})
     world.seq = data["seq"]
     world.things.merged.update(data["merged"])
@@ -49,6 +52,7 @@ def _write_thing(thing: Thing) -> dict[str, Any]:
     row: dict[str, Any] = {name: round(getattr(thing, name), 5) for name in _NUMBERS}
     row |= {"id": thing.id, "type": thing.type, "receptacle": thing.receptacle, "room": thing.room}
     row |= {"source": thing.last_source, "verified": thing.verified, "votes": thing.votes}
+    row |= {"from_above": True} if thing.from_above else {}
     row["sights"] = {s: [v.robot, v.support, v.stamp_s, v.confidence, v.hits] for s, v in thing.sights.items()}
     row["facts"] = {
         name: {s: [c.probability, c.stamp_s, c.handled] for s, c in fact.claims.items()}
@@ -63,6 +67,7 @@ def _read_thing(row: dict[str, Any]) -> Thing:
         setattr(thing, name, row[name])
     thing.receptacle, thing.room, thing.last_source = row["receptacle"], row["room"], row["source"]
     thing.verified, thing.votes = row["verified"], row["votes"]
+    thing.from_above = row.get("from_above", False)
     thing.placed_x, thing.placed_y, thing.placed_z = thing.x, thing.y, thing.z
     for source, (robot, support, stamp_s, confidence, hits) in row["sights"].items():
         sight = thing.sights[source] = Sight(robot)

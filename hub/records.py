@@ -80,6 +80,7 @@ class Thing:
         "distinct",
         "facts",
         "first_hand_s",
+        "from_above",
         "handled_s",
         "hits",
         "id",
@@ -131,6 +132,8 @@ class Thing:
         self.handled_s = -1e9
         """When a robot last took or put it."""
         self.verified = False
+        self.from_above = False
+        """A robot has hovered over it in this task and looked down."""
         self.receptacle: str | None = None
         self.room: str | None = None
         self.facts: dict[str, Fact] = {}

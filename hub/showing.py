@@ -70,6 +70,7 @@ def state(thing: Thing, now_s: float) -> ObjectState:
         seen_by=tuple(sorted(source for source, sight in thing.sights.items() if sight.hits)),
         verified=thing.verified,
         maybe=_maybe(thing),
+        seen_from_above=thing.from_above,
     )
 
 

@@ -129,6 +129,10 @@ class World:
         """What goals ask a robot to have seen or searched counts from now."""
         self.areas.begin_task()
         for thing in self.things:
+            if thing.from_above:
+                thing.from_above = False
+                thing.version += 1
+                self.things.touch(thing)
             if thing.verified and thing.receptacle not in self.fleet.robots:
                 thing.verified = False
                 thing.first_hand_s = -1e9
@@ -269,6 +273,7 @@ class World:
         keep.retype(max(sorted(keep.votes), key=lambda type: keep.votes[type], default=keep.type))
         keep.hits += drop.hits
         keep.verified = keep.verified or drop.verified
+        keep.from_above = keep.from_above or drop.from_above
         keep.version += 1
         self.things.touch(keep)
         for thing in self.things.inside(drop):

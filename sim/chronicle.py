@@ -9,7 +9,7 @@ from wire.messages.world import WorldState
 
 MOST_CHANGES = 20_000
 """So many changed worlds are remembered; older ones are forgotten, and order is not judged in them."""
-LASTING = ("found", "visited")
+LASTING = ("found", "visited", "seen_from_above", "surveyed")
 """What stays true once a robot has looked, so that a second look leaves no mark of its own."""
 
 
@@ -76,9 +76,16 @@ def _facts(world: WorldState) -> Hashable:
     """What goals can speak of: places, properties and looks of things, and which rooms robots are and were in."""
     return (
         tuple(
-            (o.id, o.receptacle, o.room, o.verified, tuple((name, p.value) for name, p in o.props.items()))
+            (
+                o.id,
+                o.receptacle,
+                o.room,
+                o.verified,
+                o.seen_from_above,
+                tuple((name, p.value) for name, p in o.props.items()),
+            )
             for o in world.objects
         ),
         tuple((robot.id, robot.room) for robot in world.robots),
-        tuple(area.searched for area in world.areas),
+        tuple((area.searched, area.seen_from_above, area.surveyed) for area in world.areas),
     )

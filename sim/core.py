@@ -2,14 +2,15 @@
 
 from collections.abc import Sequence
 from math import radians
+from typing import TYPE_CHECKING
 
+from sim.aerials import drone_starts
 from sim.appliances import Appliances
 from sim.bullet import STEP_S
 from sim.cameras import Cameras
 from sim.carrier import Arm
 from sim.faults import Faults
 from sim.generator import make_home
-from sim.hangar import Hangar, drone_starts
 from sim.judge import Judge
 from sim.locomotion import Locomotion
 from sim.models import parts
@@ -22,6 +23,9 @@ from wire.bus import CannotRun, Event, Node, Received, Request
 from wire.messages.driver import GripperCommand, VelocityCommand
 from wire.messages.truth import JudgeRequest, TruthState, TruthTask
 from wire.site import Site, SiteError
+
+if TYPE_CHECKING:
+    from sim.hangar import Hangar
 
 JUDGE_HZ = 2.0
 MOST_TICKS_AT_ONCE = 10
@@ -38,7 +42,7 @@ class SimCore:
         walkers = [robot for robot in site.robot if robot.kind == "quadruped"]  # what else there is brings its own body
         starts = [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in walkers]
         self.physics = Physics(scene, starts, site.sim.legs, drone_starts(site), site.sim.seed)
-        self._hangar = Hangar(site, self.physics)
+        self._hangar = _open_hangar(site, self.physics)
         self._renderer = renderer
         self._step_s = site.clock.step_s
         self._substeps = _substeps(site)
@@ -73,7 +77,8 @@ class SimCore:
     def stop(self) -> None:
         if self._renderer is not None:
             self._renderer.close()
-        self._hangar.close()
+        if self._hangar is not None:
+            self._hangar.close()
         self.physics.close()
 
     def _handle(self, event: Event, now_s: float) -> None:
@@ -89,10 +94,12 @@ class SimCore:
         """One tick: physics first, then what the sensors notice of it."""
         for legs in self._legs.values():
             legs.watch(now_s)
-        self._hangar.listen()
+        if self._hangar is not None:
+            self._hangar.listen()
         if self._tick > 0:
             self.physics.advance(self._substeps)
-        self._hangar.tell()
+        if self._hangar is not None:
+            self._hangar.tell()
         for robot, legs in self._legs.items():
             legs.publish(self._node, self._tick, now_s)
             self._publish_arm(robot, now_s)
@@ -137,6 +144,14 @@ def build(site: Site, process_id: str) -> SimCore:
     except RenderError as error:
         raise CannotRun(str(error)) from error
     return SimCore(site, scene, make_task(scene, site.sim.seed), renderer)
+
+
+def _open_hangar(site: Site, physics: Physics) -> "Hangar | None":
+    if not physics.drones:
+        return None
+    from sim.hangar import Hangar  # with MAVLink behind it: a building without drones does without
+
+    return Hangar(site, physics)
 
 
 def _check_faulty_appliances(site: Site, there: list[str]) -> None:

@@ -1,40 +1,19 @@
 """The autopilots of the drones in a simulated building, each where the site file says that its drone looks for it."""
 
-import re
 import time
-from dataclasses import dataclass
-from math import radians
 
+from sim.aerials import aerial_of, simulated
 from sim.autopilot.firmware import Firmware
 from sim.autopilot.personality import PERSONALITIES
 from sim.bullet import STEP_S
 from sim.mavlink.endpoint import Aboard, Endpoint
 from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
-from sim.physics import Physics, RobotStart
+from sim.physics import Physics
 from wire.bus import CannotRun
 from wire.site import Robot, Site
 
 ORIGIN = (47.397742, 8.545594, 488.0)
 """Latitude, longitude and height above the sea of a site's origin: where PX4's own simulation stands."""
-_HERE = ("127.0.0.1", "localhost", "0.0.0.0")
-_LINK = re.compile(r"(udpin|udpout|tcpout)://([^:]+):(\d+)")
-
-
-@dataclass(frozen=True)
-class _Aerial:
-    """What the simulator offers to one drone."""
-
-    kind: str
-    port: int
-
-
-def simulated(site: Site) -> list[Robot]:
-    """The drones whose autopilot is looked for on this machine: the others fly by themselves."""
-    return [robot for robot in site.robot if robot.kind == "drone" and _aerial(robot) is not None]
-
-
-def drone_starts(site: Site) -> list[RobotStart]:
-    return [RobotStart(r.id, r.start_m, radians(r.start_yaw_deg)) for r in simulated(site)]
 
 
 class Hangar:
@@ -85,16 +64,9 @@ class Hangar:
             firmware.step(now_s)
 
 
-def _aerial(robot: Robot) -> _Aerial | None:
-    found = _LINK.fullmatch(robot.link or "")
-    if found is None or found[2] not in _HERE:
-        return None
-    return _Aerial(found[1], int(found[3]))
-
-
 def _links(robot: Robot, stations: tuple[str, ...]) -> list[Link]:
     """The other end of the drone's own link, and one for each ground station."""
-    aerial = _aerial(robot)
+    aerial = aerial_of(robot)
     assert aerial is not None
     links: list[Link] = []
     try:

@@ -9,11 +9,12 @@ from sim.cameras import MAST_FOCAL_PX, MAST_HEIGHT_PX, MAST_WIDTH_PX
 from sim.carrier import Arm
 from sim.chronicle import Chronicle
 from sim.deeds import breach
+from sim.overhead import Overhead
 from sim.physics import Physics
 from sim.rover import Rover
 from sim.scene import Scene
 from sim.sight import is_visible, obstacles_around
-from sim.truth import Truth, room_of
+from sim.truth import NOTHING_ABOVE, Above, Truth, room_of
 from wire.frames import project
 from wire.goals import holds
 from wire.messages.goal import Goal
@@ -35,6 +36,7 @@ class Judge:
         self._verified: set[int] = set()
         self._seq = 0
         self._chronicle = Chronicle()
+        self._overhead = Overhead(scene)
 
     def watch(self, now_s: float) -> WorldState:
         """Note where the robots are, what their mast cameras see from near, what their hands have handled and what has
@@ -45,6 +47,7 @@ class Judge:
             if room is not None:
                 self._visited.add(room)
             self._verified |= self._seen_from(id, rover)
+        self._overhead.watch(self._physics.drones, now_s)
         world = self._world(now_s)
         self._chronicle.note(world)
         return world
@@ -68,7 +71,10 @@ class Judge:
     def _world(self, now_s: float) -> WorldState:
         self._seq += 1
         robots = {id: rover.motion() for id, rover in self._physics.robots.items()}
-        return self._truth.world(robots, self._visited, self._verified, now_s, self._seq)
+        drones = {id: drone.true_pose() for id, drone in self._physics.drones.items()}
+        over = self._overhead
+        above = Above(over.rooms, over.surveyed, over.things) if drones else NOTHING_ABOVE
+        return self._truth.world(robots, self._visited, self._verified, now_s, self._seq, drones, above)
 
     def verdict(self, request: JudgeRequest, now_s: float, sim_s: float) -> JudgeReply:
         """Judge the goals asked about, or the scene's own."""

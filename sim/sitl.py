@@ -6,6 +6,7 @@ import signal
 import sys
 import time
 from collections.abc import Sequence
+from ipaddress import ip_address
 from math import inf, radians
 from types import FrameType
 from typing import Any
@@ -26,7 +27,6 @@ APART_M = 1.5
 STEPS_PER_TURN = 2
 FARTHEST_BEHIND_S = 0.5
 """A machine that is slower than the clock lets time slip rather than hurry after it."""
-SITUATION_OPEN_M = inf
 
 
 class Flight:
@@ -42,7 +42,7 @@ class Flight:
             self._bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, EVERYTHING)
             yaw_rad = heading_to_yaw_rad(radians(options.home[3]))
             starts = [((APART_M * k, 0.0), yaw_rad) for k in range(options.vehicles)]
-            ceiling_m = SITUATION_OPEN_M
+            ceiling_m = inf
         else:
             scene = make_home(options.house)
             self._bullet = Physics(scene, ()).bullet
@@ -98,7 +98,9 @@ class Sitl:
         self.links = _open(options, signing)
         self.flight = Flight(options)
         row = PERSONALITIES[options.firmware]
-        self.endpoint = Endpoint([Aboard(each, row) for each in self.flight.firmwares], self.links, unix_s)
+        self.endpoint = Endpoint(
+            [Aboard(each, row, camera=options.camera) for each in self.flight.firmwares], self.links, unix_s
+        )
 
     def run(self) -> None:
         """Real time until `running` is false. A message is acted on as soon as it comes."""
@@ -137,7 +139,7 @@ class Sitl:
             f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; "
             + ("position also as a GPS fix" if options.gps == "fused" else "no GPS: local or external position only"),
         ]
-        here = "127.0.0.1" if options.bind == "0.0.0.0" else options.bind
+        here = "127.0.0.1" if ip_address(options.bind).is_unspecified else options.bind
         for link in self.links:
             if isinstance(link, TcpServer):
                 at = f"{here}:{link.port}"
@@ -147,7 +149,7 @@ class Sitl:
                 lines.append(f"UDP on {at}: mavproxy.py --master udpout:{at}; MAVSDK udpout://{at}")
         for host, port in options.udp_out:
             known = "QGroundControl finds it by itself; " if port == 14550 else ""
-            lines.append(f"UDP to {host}:{port}: {known}MAVSDK udpin://0.0.0.0:{port}")
+            lines.append(f"UDP to {host}:{port}: {known}MAVSDK udpin://{host}:{port}")
         if options.sign_key is not None:
             lines.append("only commands signed with the key are taken")
         return lines
@@ -167,7 +169,6 @@ def _open(options: Options, signing: Signing | None) -> list[Link]:
 
 
 def main(argv: list[str] | None = None) -> int:
-    begun_s = time.monotonic()
     options = parse(argv)
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     logging.getLogger("pymavlink").setLevel(logging.WARNING)
@@ -179,8 +180,7 @@ def main(argv: list[str] | None = None) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, sitl.stop)
     try:
-        ready = f"ready after {time.monotonic() - begun_s:.1f} s; Ctrl-C ends it"
-        sys.stdout.write("\n".join([*sitl.lines(), ready]) + "\n")
+        sys.stdout.write("\n".join([*sitl.lines(), "ready; Ctrl-C ends it"]) + "\n")
         sys.stdout.flush()
         sitl.run()
     finally:

@@ -28,6 +28,7 @@ class Options:
     seed: int
     house: int | None
     """Seed of the home flown in; None for a bare floor."""
+    camera: bool
     sign_key: bytes | None
     bind: str
 
@@ -96,7 +97,7 @@ def _bind(text: str) -> str:
     try:
         return str(ipaddress.IPv4Address(text))
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 0.0.0.0") from error
+        raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 127.0.0.1") from error
 
 
 def parse(argv: list[str] | None) -> Options:
@@ -115,8 +116,16 @@ def parse(argv: list[str] | None) -> Options:
     add("--home", type=_home, default=None, metavar="LAT,LON,ALT,YAW", help="where the origin lies (Zurich)")
     add("--seed", type=_seed, default=0, metavar="N", help="of the sensors' noise")
     add("--scene", type=_scene, default=None, metavar="home:SEED|empty", help="a furnished home, or a bare floor")
+    shown = "show a camera and a gimbal (on for px4; off for ardupilot, as dronekit is confused by them)"
+    add("--camera", choices=("on", "off"), default=None, help=shown)
     add("--sign-key", type=_key, default=None, metavar="HEX", help="take only commands signed with this key")
-    add("--bind", type=_bind, default="127.0.0.1", metavar="ADDRESS", help="0.0.0.0 lets other machines in")
+    add(
+        "--bind",
+        type=_bind,
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="another address of this machine lets others in",
+    )
     given = parser.parse_args(argv)
     tcp, udp_out = tuple(given.tcp), tuple(given.udp_out)
     if not (tcp or udp_out or given.udp_in):
@@ -133,6 +142,7 @@ def parse(argv: list[str] | None) -> Options:
         home=given.home or ZURICH,
         seed=given.seed,
         house=cast("int | None", given.scene),
+        camera=given.firmware == "px4" if given.camera is None else given.camera == "on",
         sign_key=given.sign_key,
         bind=given.bind,
     )

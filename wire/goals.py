@@ -11,6 +11,13 @@ _PROP = {
     "clean": ("isDirty", False),
     "sliced": ("isSliced", True),
 }
+ROOM_GOALS = {"visited": "searched", "seen_from_above": "seen_from_above", "surveyed": "surveyed"}
+"""Predicate -> the field of a room that says whether it holds of it."""
+
+
+def of_room(subject: Selector) -> bool:
+    """Whether a goal is about a room itself and not about things in it."""
+    return subject.room is not None and subject.type is None and subject.id is None
 
 
 def select(selector: Selector, world: WorldState) -> list[ObjectState]:
@@ -42,7 +49,12 @@ def holds(goal: Goal, world: WorldState) -> bool:
     """
     if goal.forbidden:
         return True
-    satisfied = _visited(goal, world) if goal.predicate == "visited" else _objects_hold(goal, world)
+    if goal.predicate in ROOM_GOALS and of_room(goal.subject):
+        satisfied = any(a.id == goal.subject.room and getattr(a, ROOM_GOALS[goal.predicate]) for a in world.areas)
+    elif goal.predicate == "visited":
+        satisfied = _looked_at(goal.subject, world)
+    else:
+        satisfied = _objects_hold(goal, world)
     return satisfied != goal.negated
 
 
@@ -60,6 +72,8 @@ def object_satisfies(goal: Goal, obj: ObjectState, world: WorldState) -> bool:
         return prop is not None and prop.value == wanted
     if goal.predicate == "found":
         return obj.verified
+    if goal.predicate == "seen_from_above":
+        return obj.seen_from_above
     if goal.predicate == "at" and goal.object is not None and goal.object.room is not None and goal.object.type is None:
         return obj.room == goal.object.room and not _carried(obj, world)
     if goal.predicate in ("in", "at") and goal.object is not None:
@@ -67,13 +81,11 @@ def object_satisfies(goal: Goal, obj: ObjectState, world: WorldState) -> bool:
     return False
 
 
+def _looked_at(subject: Selector, world: WorldState) -> bool:
+    chosen = select(subject, world)
+    seen = sum(1 for obj in chosen if obj.verified)
+    return seen == len(chosen) if subject.count is None else seen >= subject.count
+
+
 def _carried(obj: ObjectState, world: WorldState) -> bool:
     return any(robot.id == obj.receptacle for robot in world.robots)
-
-
-def _visited(goal: Goal, world: WorldState) -> bool:
-    if goal.subject.room is not None and goal.subject.type is None and goal.subject.id is None:
-        return any(area.id == goal.subject.room and area.searched for area in world.areas)
-    chosen = select(goal.subject, world)
-    seen = sum(1 for obj in chosen if obj.verified)
-    return seen == len(chosen) if goal.subject.count is None else seen >= goal.subject.count

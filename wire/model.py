@@ -28,6 +28,11 @@ Stamp = Annotated[float, Field(ge=0.0)]
 """Seconds on the mesh's clock (simulated or wall)."""
 
 
+def unset(value: object) -> bool:
+    """For `exclude_if`: a field that only some robots have is left out of the bytes of the others."""
+    return value is None or value is False or value == ()
+
+
 class Message(BaseModel):
     """A value on the wire. Validation is strict: no coercion of strings to numbers, no extra fields.
 

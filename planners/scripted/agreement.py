@@ -56,7 +56,7 @@ def _apart(goal: Goal, other: Goal) -> bool:
 
 def _barred(wish: Goal, bar: Goal) -> bool:
     if bar.predicate == "touched":
-        return wish.predicate not in ("found", "visited")
+        return wish.predicate not in ("found", "visited", "seen_from_above", "surveyed")
     if bar.predicate == "in" and bar.object is None:
         return wish.predicate in ("in", "at")
     return wish.predicate == bar.predicate and wish.object == bar.object

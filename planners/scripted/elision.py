@@ -28,7 +28,7 @@ def _same_deed(act: Act, before: Act) -> Act | None:
     if before.verb == "be" and before.word in SWITCHING and len(before.bodies) == 1:
         state = before.bodies[0].state
     text = f"{words} {state} {act.text}" if words in SWITCHING else f"{words} {act.text}"
-    if before.verb == "go":
+    if before.verb in ("go", "above", "chart"):
         stops = act.stops or (act.groups.members if act.groups is not None and not act.groups.excepted else ())
         return replace(before, stops=stops, apart=(), text=text) if stops else None
     if act.groups is None:
@@ -42,7 +42,7 @@ def _same_deed(act: Act, before: Act) -> Act | None:
 
 def with_exceptions(act: Act) -> Act:
     """The exceptions that stand before or after a clause given to its list. Raises Unclear where there is none."""
-    if not act.apart or act.verb in ("go", "survey"):
+    if not act.apart or act.verb in ("go", "survey", "above", "chart"):
         return act
     if act.groups is not None and not act.groups.excepted:
         return replace(act, groups=replace(act.groups, excepted=act.apart), apart=())

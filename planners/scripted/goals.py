@@ -144,6 +144,8 @@ class _Reader:
             raise Unclear(reason, act.text)
         if act.verb in ("go", "survey"):
             return self._go(act)
+        if act.verb in ("above", "chart"):
+            return self._over(act, "seen_from_above" if act.verb == "above" else "surveyed")
         if act.verb == "leave":
             return self._leave(act)
         raise Unclear(f"I do not know how to '{act.text}'", act.text)
@@ -202,6 +204,19 @@ class _Reader:
             raise Unclear("the exception leaves nothing to do", act.text)
         goals = [Goal(predicate="visited", subject=Selector(room=room)) for room in wanted]
         return goals + (self._states(things, "visited") if things is not None else [])
+
+    def _over(self, act: Act, predicate: Predicate) -> list[Goal]:
+        """From the air: which rooms are flown over, and what is looked down on."""
+        rooms, things, out = stops_without(act)
+        if things is not None and predicate == "surveyed":
+            raise Unclear(f"rooms are surveyed, things are looked at from above: '{things.text}'", things.text)
+        wanted = [r for stop in rooms for r in self._resolver.rooms(stop)]
+        spared = self._resolver.rooms(out) if out is not None else ()
+        wanted = [room for room in (self._rooms if act.everywhere else wanted) if room not in spared]
+        if not wanted and things is None:
+            raise Unclear("the exception leaves nothing to do", act.text)
+        goals = [Goal(predicate=predicate, subject=Selector(room=room)) for room in wanted]
+        return goals + (self._states(things, predicate) if things is not None else [])
 
     def _leave(self, act: Act) -> list[Goal]:
         if act.state == "alone":

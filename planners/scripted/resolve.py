@@ -152,7 +152,7 @@ class Resolver:
         raise Unclear(f"does '{thing.text}' stand for the {choice}?", thing.text, question=True)
 
     def _affords(self, type_name: str, predicate: str) -> bool:
-        if predicate in ("found", "visited", "touched"):
+        if predicate in ("found", "visited", "touched", "seen_from_above"):
             return type_name in self._present or type_name in modelled_types()
         return type_row(type_name).can(FLAG[predicate][0])
 

@@ -31,7 +31,8 @@ _PARAMETER = re.compile(r"\b([A-Za-z]\w{0,31})=(\S+)")
 def read_told(request: PlanRequest, planner: str) -> Plan | None:
     """The plan that the instruction spells out; None when it names no skill. Raises Unclear when it cannot be done."""
     instruction = request.instruction.strip().rstrip(".!")
-    if (above := _FROM_ABOVE.fullmatch(instruction)) is not None:
+    above = _FROM_ABOVE.fullmatch(instruction)
+    if above is not None and (_addressed(above["robot"], request) or _PARAMETER.search(above["rest"])):
         instruction = f"{above['robot'] or ''}do {_FROM_ABOVE_SKILL} in {above['place']}{above['rest']}"
     told = _TOLD.fullmatch(instruction)
     if told is None:
@@ -62,6 +63,12 @@ def read_told(request: PlanRequest, planner: str) -> Plan | None:
         for number, (object, room) in enumerate(places, start=1)
     )
     return Plan(id=plan_id(request), task=request.task, planner=planner, goals=(), nodes=nodes)
+
+
+def _addressed(words: str | None, request: PlanRequest) -> bool:
+    """Whether an instruction begins with the name of a robot, and not with "please,"."""
+    name = (words or "").strip()
+    return name.endswith(":") or name.rstrip(" ,").lower() in {robot.id for robot in request.world.robots}
 
 
 def _listed(names: list[str]) -> str:

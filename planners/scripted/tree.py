@@ -215,6 +215,13 @@ class Builder(Transformer[Token, Any]):
         stops = [child for child in children if isinstance(child, Rooms | Group)]
         return self._act(meta, "go", children, stops=tuple(stops), apart=_apart(children))
 
+    def above(self, meta: Any, children: Children) -> Act:
+        everywhere = "house" in children
+        return replace(self.go(meta, children), verb="above", everywhere=everywhere)
+
+    def chart(self, meta: Any, children: Children) -> Act:
+        return replace(self.above(meta, children), verb="chart")
+
     def left_out(self, meta: Any, children: Children) -> tuple[LeftOut]:
         what = children[-1]
         return (Place(what.text, "IN", what) if isinstance(what, Rooms) else what,)

@@ -57,7 +57,7 @@ class Belief:
         known when a robot was the one who saw or set it; both when a robot has been sent to look in this task. What
         only a camera says of a property is looked at first: nothing would be done about it if it were wrong.
         """
-        if goal.predicate in ("found", "visited") or self._looked_at(goal, obj):
+        if goal.predicate in ("found", "visited", "seen_from_above") or self._looked_at(goal, obj):
             return True
         there = self.there(obj)
         name = _PROP.get(goal.predicate)

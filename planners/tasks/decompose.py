@@ -9,11 +9,12 @@ from collections.abc import Sequence
 
 from planners.tasks.belief import Belief
 from planners.tasks.handling import Handling
+from planners.tasks.overhead import OVERHEAD, check_able, over_room, over_thing
 from planners.tasks.places import holder_types
 from planners.tasks.search import Search, Wanted
 from planners.tasks.settle import MOVES
 from planners.tasks.work import Impossible, Job
-from wire.goals import holds
+from wire.goals import ROOM_GOALS, holds, of_room
 from wire.messages.goal import Goal
 from wire.messages.world import ObjectState
 
@@ -79,9 +80,11 @@ class Decomposition:
     def _plan_goal(self, index: int, goal: Goal) -> None:
         if goal.predicate == "touched":
             raise Impossible("touching is not a goal")
-        if goal.predicate == "visited" and goal.subject.type is None and goal.subject.room is not None:
+        if goal.predicate in OVERHEAD and not holds(goal, self._belief.world):
+            check_able(goal.predicate, self._belief)
+        if goal.predicate in ROOM_GOALS and of_room(goal.subject):
             if not holds(goal, self._belief.world):
-                self._handling.add(self._search.visit(goal.subject.room, index))
+                self._handling.add(self._over(index, goal))
             return
         things = [o for o in self._belief.matching(goal.subject) if self._may_take(index, goal, o)]
         good = [o for o in things if self._belief.satisfies(goal, o)]
@@ -103,6 +106,13 @@ class Decomposition:
                 raise Impossible(reasons[0])
         elif done < missing:
             self._want(index, goal, reasons[0] if reasons else "")
+
+    def _over(self, index: int, goal: Goal) -> Job:
+        """Through a room, or above it."""
+        room = goal.subject.room or ""
+        if goal.predicate in OVERHEAD:
+            return over_room(goal.predicate, room, index, self._search.centre_m(room), self._belief)
+        return self._search.visit(room, index)
 
     def _may_take(self, index: int, goal: Goal, obj: ObjectState) -> bool:
         """One thing is moved for one goal; it may be washed for another."""
@@ -142,6 +152,8 @@ class Decomposition:
                 elif goal.predicate in ACTION_ON:
                     self._handling.change(index, goal.predicate, obj)
                     self._belief.notes.changed.add((obj.id, goal.predicate))
+                elif goal.predicate in OVERHEAD:
+                    self._handling.add(over_thing(goal.predicate, obj, index, self._belief))
                 else:
                     self._handling.look(index, obj)
                 done += 1

@@ -8,10 +8,11 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from wire.messages.plan import KNOWN_ACTIONS
+from wire.messages.plan import FROM_ABOVE, KNOWN_ACTIONS
 
 GIVE_UP = 3
 """So many failures of one action on one thing, and it is not tried again."""
+_ACTIONS = KNOWN_ACTIONS | FROM_ABOVE.keys()
 _TOKEN = re.compile(r"[a-z][a-z0-9_-]*")
 
 
@@ -25,8 +26,8 @@ class Failures:
         names = set(robots)
         for sentence in sentences:
             words = _TOKEN.findall(sentence.lower())
-            actions = [w for w in words if w in KNOWN_ACTIONS][:1]
-            about = dict.fromkeys(w for w in words if w not in KNOWN_ACTIONS and w not in names)
+            actions = [w for w in words if w in _ACTIONS][:1]
+            about = dict.fromkeys(w for w in words if w not in _ACTIONS and w not in names)
             for action in actions:
                 for word in about:
                     self._counts[action, word] += 1

@@ -109,13 +109,18 @@ class Search:
 
     def visit(self, room: str, goal: int) -> Job:
         """Go through one room because that is what was asked."""
-        if room not in self._centres:
-            raise Impossible(f"the site has no room {room}")
+        centre_m = self.centre_m(room)
         if room in self._belief.bans.rooms:
             raise Impossible(f"{room} may not be entered")
         if self._belief.failures.spent("explore", room):
             raise Impossible(self._belief.failures.last(room))
-        return Job([Step("explore", self._centres[room], room=room)], goal)
+        return Job([Step("explore", centre_m, room=room)], goal)
+
+    def centre_m(self, room: str) -> Vec2:
+        """The middle of a room. Raises Impossible where there is no such room."""
+        if room not in self._centres:
+            raise Impossible(f"the site has no room {room}")
+        return self._centres[room]
 
     def _in_vain(self, want: Wanted) -> str:
         if want.reason:

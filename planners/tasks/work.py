@@ -18,6 +18,8 @@ STEP_S: dict[Action, float] = {
     "toggle_off": 5.0,
     "slice": 7.0,
     "clean": 8.0,
+    "inspect_from_above": 15.0,
+    "construct_map": 60.0,
 }
 """About how long a step takes once the robot is there."""
 

@@ -132,6 +132,17 @@ def _fail(conduct: Conduct, command: Command, now_s: float) -> Answer:
     return _ACCEPTED
 
 
+def _fence(conduct: Conduct, command: Command, now_s: float) -> Answer:
+    """DO_FENCE_ENABLE, where a parameter does the same."""
+    params = conduct.now.params
+    if not params.has("FENCE_ENABLE"):
+        return Answer(Ack.UNSUPPORTED)
+    if command.params[0] not in (0.0, 1.0):
+        return Answer(Ack.DENIED)
+    params.put("FENCE_ENABLE", command.params[0])
+    return _ACCEPTED
+
+
 COMMANDS: dict[int, Callable[[Conduct, Command, float], Answer]] = {
     20: orders.come_home,
     21: orders.land,
@@ -148,6 +159,7 @@ COMMANDS: dict[int, Callable[[Conduct, Command, float], Answer]] = {
     195: _region,
     197: _no_region,
     201: _region_by_mode,
+    207: _fence,
     241: _calibrate,
     246: _reboot,
     252: orders.override,

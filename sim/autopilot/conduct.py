@@ -24,6 +24,7 @@ _DECIDE_S = 1 / 60 - 1e-4
 _LOOK_S = 1 / 20 - 1e-4
 _STREAM_S = 0.5
 """PX4's offboard mode is entered when the last setpoint is not older."""
+_TELL_S = 0.4
 _CRASH_S = 2.0
 _NEEDS_POSITION = frozenset({"hold", "takeoff", "return", "mission", "offboard", "position"})
 _AUTO = frozenset({"takeoff", "land", "return", "mission"})
@@ -59,7 +60,7 @@ class Conduct:
         self.stream: Trajectory | AttitudeTarget | None = None
         """The latest setpoint, where offboard flies a stream of them."""
         self.activity: Activity = self.begin(first)
-        self._decided_s = self._looked_s = -math.inf
+        self._decided_s = self._looked_s = self._told_s = -math.inf
         self._grounded_s: float | None = None
         self._tipped_s: float | None = None
         self._flown = False
@@ -96,7 +97,8 @@ class Conduct:
             if now_s >= until_s:
                 self.news.append((command, Ack.ACCEPTED, 100))
                 self.waiting = None
-            else:
+            elif now_s - self._told_s >= _TELL_S:
+                self._told_s = now_s
                 share = (now_s - begun_s) / max(1e-6, until_s - begun_s)
                 self.news.append((command, Ack.IN_PROGRESS, int(100 * share)))
 
@@ -109,7 +111,7 @@ class Conduct:
             self.activity = Hover(rest.place_ned_m, rest.heading_rad)
         if now.mode == "mission" and self.activity.done and not ardupilot and now.flying:
             self.enter("hold", now_s)
-        tipped = self.vehicle.tipped and abs(now.estimate.velocity_ned_mps[2]) < 0.5
+        tipped = self.vehicle.tipped and math.hypot(*now.estimate.velocity_ned_mps) < 0.5
         self._tipped_s = (self._tipped_s or now_s) if tipped else None
         if self._tipped_s is not None and now_s - self._tipped_s > _CRASH_S:
             self.disarm("Crash: disarming", now_s)
@@ -121,11 +123,10 @@ class Conduct:
             return
         landed = (self.activity.done and now.mode in ("land", "return", "mission")) or (self._flown and not ardupilot)
         if landed:
-            span_s = 0.0 if ardupilot else now.params.get("COM_DISARM_LAND")
+            span_s = 1e-3 if ardupilot else now.params.get("COM_DISARM_LAND")
         else:
             span_s = now.params.get("DISARM_DELAY" if ardupilot else "COM_DISARM_PRFLT")
-            span_s = -1.0 if span_s == 0.0 else span_s
-        if span_s >= 0.0 and now_s - self._grounded_s >= span_s:
+        if span_s > 0.0 and now_s - self._grounded_s >= span_s:  # 0 and less: never
             self.disarm("Disarmed after landing" if landed else "Disarmed: idle on the ground", now_s)
 
     def _asked_up(self, now_s: float) -> bool:
@@ -152,7 +153,7 @@ class Conduct:
         if mode == "return":
             return GoHome()
         if mode == "mission":
-            if self.plans.mission.finished:
+            if now.armed and self.plans.mission.finished:
                 self.plans.mission.restart()
             return MissionRun(self.plans.mission)
         if mode == "offboard":
@@ -178,9 +179,10 @@ class Conduct:
     def enter(self, mode: Mode, now_s: float, custom_mode: int | None = None) -> None:
         """Change the mode; the caller has seen to it that it may be."""
         now = self.now
+        if mode != now.mode:
+            now.speed_mps = None
         now.mode = mode
         now.custom_mode = now.row.modes[mode] if custom_mode is None else custom_mode
-        now.speed_mps = None
         if self.waiting is not None:
             self.news.append((self.waiting[0], Ack.CANCELLED, 0))
             self.waiting = None

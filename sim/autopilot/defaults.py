@@ -26,7 +26,7 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _whole("SYSID_MYGCS", 255, 1, 255),
     _fixed("FRAME_CLASS", 1),
     _whole("ARMING_CHECK", 1, 0, 1 << 22),  # 0: none
-    _real("BATT_ARM_VOLT", 0, 0, 60),
+    _real("BATT_ARM_VOLT", 14.2, 0, 60),
     _real("BATT_LOW_VOLT", 14.0, 0, 60),  # 0: off
     _real("BATT_CRT_VOLT", 13.6, 0, 60),
     _real("BATT_LOW_TIMER", 10, 0, 120),
@@ -60,7 +60,7 @@ PX4_PARAMS: tuple[Param, ...] = (
     _whole("SYS_FAILURE_EN", 0, 0, 1),
     _whole("COM_ARM_WO_GPS", 1, 0, 2),
     _real("COM_ARM_BAT_MIN", 0, 0, 0.9),
-    _real("COM_DISARM_LAND", 2, -1, 20),  # negative: never
+    _real("COM_DISARM_LAND", 2, -1, 20),  # 0 and less: never
     _real("COM_DISARM_PRFLT", 10, -1, 60),
     _real("COM_OF_LOSS_T", 1, 0, 60),
     _whole("COM_OBL_RC_ACT", 5, 0, 7),  # 0 position, 1 altitude, 2 manual, 3 return, 4 land, 5 hold, 6, 7 terminate

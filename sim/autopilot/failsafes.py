@@ -61,6 +61,8 @@ class Failsafes:
                 begin = max(begin, Action.HOLD)
             elif acts:
                 begin = max(begin, alarm.action)
+        for name in self._raised.keys() - standing.keys():
+            now.say(Severity.INFO, f"Over: {name} alarm")
         self._raised = standing
         if self._due is not None and self._due[2] not in standing:
             self._due = None

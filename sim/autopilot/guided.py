@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from sim.autopilot.flying import Circle, Climb, Hover, blind
+from sim.autopilot.interface import Severity
 from sim.autopilot.situation import Situation
 from sim.flight.state import FREE, AttitudeTarget, Off, OptionalVec3, Setpoint, Trajectory, Vec3
 
@@ -40,6 +41,7 @@ class Guided:
         timeout_s = math.inf if now.row.setpoint_stream else now.params.get("GUID_TIMEOUT")
         if self.target is not None and now_s - self.heard_s > timeout_s and not _stays(self.target):
             self.target, self._pace = None, None
+            now.say(Severity.WARNING, "Setpoints stopped: hovering")
         if self.target is None:
             self.rest = self.rest or Hover()
             return self.rest.step(now, now_s)

@@ -80,6 +80,8 @@ class Mission:
     finished: bool = False
     reached: list[int] = field(default_factory=list)
     jumped: dict[int, int] = field(default_factory=dict)
+    edition: int = 0
+    """How many uploads there have been."""
 
     @property
     def empty(self) -> bool:
@@ -95,11 +97,12 @@ class Mission:
             if item.command == JUMP and not self.first <= item.params[0] < len(items):
                 return PARAM1
         self.items = items
+        self.edition += 1
         self.restart()
         return ACCEPTED
 
     def restart(self) -> None:
-        self.current, self.finished = self.first if not self.empty else 0, False
+        self.current, self.finished = 0 if self.empty else self.first, self.empty
         self.jumped.clear()
 
     def go_to(self, seq: int) -> bool:

@@ -37,7 +37,8 @@ class MissionRun:
     mission: Mission
     leg: Activity | None = None
     _rest: Activity | None = None
-    _seq: int = -1
+    _begun: tuple[int, int] = (-1, -1)
+    """Edition of the mission and number of the item that the leg belongs to."""
     _lifting: bool = False
     _stay_s: float = 0.0
     _done_s: float | None = None
@@ -58,10 +59,10 @@ class MissionRun:
             self.leg = None
             return self._hover(now, now_s)
         mission = self.mission
+        if self.leg is not None and self._begun != (mission.edition, mission.current):
+            self.leg = self._rest = None  # another item was made the current one
         if mission.finished and self.leg is None:
             return self._hover(now, now_s)
-        if self.leg is not None and self._seq != mission.current and not mission.finished:
-            self.leg = None  # another item was made the current one
         for _ in range(len(mission.items) + 1):
             if self.leg is not None or mission.finished:
                 break
@@ -95,7 +96,8 @@ class MissionRun:
         return self._rest.step(now, now_s)
 
     def _begin(self, item: Item, now: Situation) -> None:
-        self._seq, self._stay_s, self._done_s = item.seq, 0.0, None
+        self._begun = (self.mission.edition, self.mission.current)
+        self._stay_s, self._done_s = 0.0, None
         if item.command == JUMP:
             self.mission.jump(item)
         elif item.command in (YAW, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION):

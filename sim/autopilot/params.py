@@ -20,6 +20,9 @@ class Params:
     def all(self) -> list[Param]:
         return list(self._rows.values())
 
+    def has(self, name: str) -> bool:
+        return name in self._rows
+
     def get(self, name: str, default: float | None = None) -> float:
         """The value. `KeyError` when this firmware has no such parameter and no default is given."""
         if default is not None and name not in self._rows:

@@ -45,7 +45,7 @@ def trajectory(target: PositionTarget, now: Situation) -> Trajectory | str:
     nose, rate = _yaw(target, heading)
     if isinstance(nose, str):
         return nose
-    fastest = now.quantity("cruise_mps" if velocity == FREE else "fastest_mps")
+    fastest = now.cruise_mps if velocity == FREE else now.quantity("fastest_mps")
     return Trajectory(
         position, velocity, acceleration, nose, rate, fastest, now.quantity("climb_mps"), now.quantity("descent_mps")
     )

@@ -75,7 +75,7 @@ class Control:
         self._rates = (p, q, r)
         self._yaw_rate = r
         self._sent = [now.vn, now.ve, now.vd]
-        self.wanted_down_mps = 0.0
+        self.wanted_down_mps = MAX_DESCENT_MPS if target.thrust < 0.75 * HOVER_THRUST else 0.0
 
     def guide(self, wish: Trajectory, now: Estimator, heading_rad: float, span_s: float) -> None:
         """Position and velocity, `span_s` after the last time."""

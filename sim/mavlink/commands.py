@@ -20,6 +20,8 @@ POSITIONED = frozenset(
 )
 """MAV_CMD whose params 5 and 6 are a place, scaled in a COMMAND_INT; of others they are plain numbers."""
 MOST_REMEMBERED = 32
+REPORT_S = 0.5
+"""From one report of a command in progress to the next."""
 
 
 class Component(Protocol):
@@ -59,6 +61,7 @@ class Commands:
         self._rates = rates
         self._components = components
         self._running: dict[int, Sender] = {}
+        self._reported_s = -math.inf
         self._own: dict[int, Callable[[Command, Sender, float], Answer]] = {
             mav.MAV_CMD_SET_MESSAGE_INTERVAL: self._set_interval,
             mav.MAV_CMD_GET_MESSAGE_INTERVAL: self._get_interval,
@@ -158,7 +161,8 @@ class Commands:
 
     def _set_mode(self, command: Command, sender: Sender, now_s: float) -> Answer:
         """PX4's custom mode comes as main and sub mode, ArduPilot's as one number."""
-        base, main, sub = (number(0.0 if math.isnan(value) else value) for value in command.params[:3])
+        base, main = number(command.params[0]), number(command.params[1])
+        sub = number(0.0 if math.isnan(command.params[2]) else command.params[2])
         if base is None or main is None or sub is None or not all(0 <= value <= 0xFFFF for value in (base, main, sub)):
             return Answer(Ack.DENIED)
         if self._craft.personality.name == "px4":
@@ -172,7 +176,7 @@ class Commands:
         if answer.text:
             self._craft.complain(answer.text, now_s)
 
-    def step(self) -> None:
+    def step(self, now_s: float) -> None:
         """Report how commands in progress go, to those who gave them."""
         for command, result, percent in self._craft.autopilot.progress():
             sender = self._running.get(command)
@@ -180,4 +184,7 @@ class Commands:
                 continue
             if result != Ack.IN_PROGRESS:
                 del self._running[command]
+            elif now_s - self._reported_s < REPORT_S:
+                continue
+            self._reported_s = now_s
             self._ack(command, result, sender, min(max(percent, 0), 100))

@@ -37,7 +37,11 @@ class Craft:
     unix_s: float = 0.0
     """Wall time at now_s = 0."""
     capture: Callable[[], bool] = lambda: True
+    camera: bool = True
+    """Whether a camera and a gimbal show themselves as components; dronekit takes any heartbeat for the autopilot's."""
     home_asked: bool = False
+    last_reached: int | None = None
+    """The mission item reached last."""
     _said: dict[str, float] = field(default_factory=dict)
     _texts: count = field(default_factory=lambda: count(1))  # type: ignore[type-arg]
 

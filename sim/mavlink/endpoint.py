@@ -23,6 +23,8 @@ class Aboard(NamedTuple):
     personality: Personality
     capture: Callable[[], bool] = lambda: True
     """Takes a picture; whether there is one."""
+    camera: bool = True
+    """Whether a camera and a gimbal show themselves."""
 
 
 class Endpoint:
@@ -38,8 +40,8 @@ class Endpoint:
         if len(set(ids)) != len(ids) or not all(1 <= each <= 254 for each in ids):
             raise ValueError(f"system ids {ids}: each must be from 1 to 254 and no two the same")
         self.nodes = [
-            Node(Craft(autopilot, personality, lambda: self._peers, unix_s, capture))
-            for autopilot, personality, capture in vehicles
+            Node(Craft(autopilot, personality, lambda: self._peers, unix_s, capture, camera))
+            for autopilot, personality, capture, camera in vehicles
         ]
 
     def _refresh(self) -> None:

@@ -77,7 +77,9 @@ class UdpOut:
         except OSError as error:
             raise LinkError(f"UDP to {host}:{port}: no such host") from error
         if ipaddress.ip_address(bind).is_loopback and not ipaddress.ip_address(self._to[0]).is_loopback:
-            raise LinkError(f"UDP to {host}:{port} leaves this machine, but links bind to {bind}: add --bind 0.0.0.0")
+            raise LinkError(
+                f"UDP to {host}:{port} leaves this machine, but links bind to {bind}: give --bind an address that others reach"
+            )
         self._socket = _bound(socket.SOCK_DGRAM, bind, 0)
         self._peer = Peer(f"udp to {host}:{port}", self._write, next(_ids) & 0xFF, signing)
 
@@ -170,6 +172,7 @@ class TcpServer:
                 continue
             made.setblocking(False)
             made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, GONE_BYTES // 8)
             self._clients.append(_Client(made, f"tcp from {address[0]}:{address[1]}", self._signing))
 
     def poll(self, now_s: float) -> Iterator[Heard]:

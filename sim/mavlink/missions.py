@@ -89,6 +89,8 @@ class Missions:
     def _finish(self, upload: Upload) -> None:
         result = self._craft.autopilot.accept_plan(upload.kind, upload.items)
         self._ack(upload.sender, result, upload.kind)
+        if upload.kind == 0 and not result:
+            self._craft.last_reached = None
         if result:
             self._craft.say(Severity.WARNING, f"{NAMES[upload.kind]} refused, the old one stays")
 

@@ -19,7 +19,7 @@ from sim.mavlink.streams import Rates
 
 Handler = Callable[[Message, Sender, float], None]
 COMMANDS = (mav.MAVLINK_MSG_ID_COMMAND_LONG, mav.MAVLINK_MSG_ID_COMMAND_INT)
-UNSIGNED = "Unsigned command refused: this vehicle takes only what is signed with its key"
+UNSIGNED = "Unsigned command refused: sign it with the key"
 
 
 class Node:
@@ -31,7 +31,7 @@ class Node:
         self._home: Vec3 | None = None
         self._camera, self._gimbal = Camera(craft), Gimbal(craft)
         self._params, self._missions = Params(craft), Missions(craft)
-        self._commands = Commands(craft, self.rates, [self._camera, self._gimbal])
+        self._commands = Commands(craft, self.rates, [self._camera, self._gimbal] if craft.camera else [])
         self._handlers = self._table(Setpoints(craft))
 
     def _table(self, setpoints: Setpoints) -> dict[int, Handler]:
@@ -70,6 +70,10 @@ class Node:
             mav.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: self._plain(upkeep.refuse_file),
             mav.MAVLINK_MSG_ID_LOG_REQUEST_LIST: self._plain(upkeep.no_logs),
         }
+
+    def handled(self) -> list[int]:
+        """The ids of the messages that are not simply let be."""
+        return sorted(self._handlers)
 
     def _plain(self, answer: Callable[[Craft, Message, Sender, float], None]) -> Handler:
         return lambda message, sender, now_s: answer(self.craft, message, sender, now_s)
@@ -118,12 +122,14 @@ class Node:
         for severity, text in self.craft.autopilot.texts():
             self.craft.say(severity, text)
         for seq in self.craft.autopilot.reached():
+            self.craft.last_reached = seq
             self.craft.broadcast(mav.MAVLink_mission_item_reached_message(seq & 0xFFFF))
-        self._commands.step()
+        self._commands.step(now_s)
         self._params.step(now_s)
         self._missions.step(now_s)
-        self._camera.step(now_s)
-        self._gimbal.step(now_s)
+        if self.craft.camera:
+            self._camera.step(now_s)
+            self._gimbal.step(now_s)
         self._stream(now_s)
 
     def _stream(self, now_s: float) -> None:

@@ -47,7 +47,7 @@ class Setpoints:
         mask, frame = message.type_mask, message.coordinate_frame
         is_global = message.get_msgId() == mav.MAVLINK_MSG_ID_SET_POSITION_TARGET_GLOBAL_INT
         if is_global != (frame in GLOBAL_FRAMES):
-            self._craft.complain(f"Setpoint refused: frame {frame} does not belong to its message", now_s)
+            self._craft.complain(f"Setpoint refused: frame {frame} is of another message", now_s)
             return
         position = _kept(mask, POSITION, where)
         velocity = _kept(mask, VELOCITY, (message.vx, message.vy, message.vz))
@@ -66,14 +66,14 @@ class Setpoints:
         asked = (message.body_roll_rate, message.body_pitch_rate, message.body_yaw_rate)
         rates = [0.0 if mask & 1 << bit else rate for bit, rate in enumerate(asked)]
         if turned is None or not finite((*rates, message.thrust)) or max(map(abs, rates)) > ABSURD:
-            self._craft.complain("Attitude setpoint refused: a number in it is not finite or it is no rotation", now_s)
+            self._craft.complain("Attitude refused: not finite, or no rotation", now_s)
             return
         target = AttitudeSetpoint(mask, turned, (rates[0], rates[1], rates[2]), message.thrust)
         self._craft.autopilot.attitude_target(target, now_s)
 
     def _pose(self, where: Vec3, heading: float | None, now_s: float) -> None:
         if not finite(where) or max(map(abs, where)) > FARTHEST_POSE_M:
-            self._craft.complain("External pose refused: a number in it is not finite", now_s)
+            self._craft.complain("External pose refused: a number is not finite", now_s)
             return
         known = heading is not None and math.isfinite(heading) and abs(heading) < ABSURD
         self._craft.autopilot.external_pose(where, heading if known else None, now_s)

@@ -112,6 +112,8 @@ def servos(craft: Craft, now: Telemetry) -> Message:
 def mission(craft: Craft, now: Telemetry) -> Message:
     if not now.mission_count:
         state = mav.MISSION_STATE_NO_MISSION
+    elif craft.last_reached is not None and min(craft.last_reached, now.mission_current) >= now.mission_count - 1:
+        state = mav.MISSION_STATE_COMPLETE
     elif craft.personality.mode(now.custom_mode) == "mission":
         state = mav.MISSION_STATE_ACTIVE
     else:

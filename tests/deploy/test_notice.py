@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from deploy.notice import HEAD, NOTICE, licence, table, written
+from deploy.notice import HEAD, NOTICE, ROOT, licence, table, written
 
 PACKAGES = [line.split()[0] for line in table().splitlines()]
 
@@ -21,6 +21,11 @@ def test_packages_of_packages_are_named_and_tools_of_developers_are_not() -> Non
 def test_what_stands_around_the_table_is_kept() -> None:
     old = f"Before\n\n{HEAD}gone 1.0 MIT\n\nAfter\n"
     assert written(old) == f"Before\n\n{HEAD}{table()}\nAfter\n"
+
+
+def test_the_ground_stations_of_the_tests_are_installed_nowhere_else() -> None:
+    for name in ("pyproject.toml", "requirements.lock", "NOTICE"):
+        assert not re.search("mavproxy|dronekit", (ROOT / name).read_text(), re.IGNORECASE), name
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from wire.messages.plan import Action, Param, SkillCard
 from wire.messages.world import RobotStatus
-from wire.model import Id, Message, Probability, Stamp, Text, Vec2, Vec3, Word
+from wire.model import Id, Message, Probability, Stamp, Text, Vec2, Vec3, Word, unset
 
 
 class Target(Message):
@@ -143,6 +143,8 @@ class RobotReport(Message):
     """Off the ground: `position_enu_m` says how high."""
     battery: Probability | None = None
     """What is left of it, where the robot can tell."""
+    path_heights_m: tuple[float, ...] = Field(default=(), exclude_if=unset)
+    """Of what flies: how high it will be at each point of `path_m`."""
 
 
 class TrafficOrder(Message):
@@ -158,6 +160,12 @@ class TrafficOrder(Message):
     others_m: tuple[Vec2, ...] = ()
     """The other robots' positions, to be kept clear of."""
     because: Text = ""
+    height_m: float | None = Field(default=None, exclude_if=unset)
+    """For what flies where others fly: travel at this height, which is a level of your own."""
+    column_taken: bool = Field(default=False, exclude_if=unset)
+    """For what flies: neither take off nor land here now, somebody stands or passes above or below."""
+    land_at_m: Vec2 | None = Field(default=None, exclude_if=unset)
+    """While somebody stands below: a free place near by to land at instead."""
 
 
 class DeviceCard(Message):

@@ -17,6 +17,8 @@ Predicate = Literal[
     "sliced",
     "found",  # subject's place is known from a look in this task
     "visited",  # a robot has been in the room / beside the object
+    "seen_from_above",  # a robot has hovered over the room or the object in this task and looked down
+    "surveyed",  # a robot has flown over the whole room in lanes in this task
     "touched",  # a robot has handled the subject in any way; only ever forbidden
 ]
 

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from wire.messages.goal import Goal
+from wire.messages.goal import Goal, Predicate
 from wire.messages.world import WorldState
 from wire.model import Id, Message, Stamp, Text, Vec2, Word
 
@@ -15,6 +15,8 @@ KNOWN_ACTIONS: frozenset[Action] = frozenset(
 )
 """Those whose preconditions and effects the hub and the planners know. What any other action changes, only
 observations tell."""
+FROM_ABOVE: dict[Action, Predicate] = {"inspect_from_above": "seen_from_above", "construct_map": "surveyed"}
+"""Skills of what flies whose success is a goal reached: their parameters are those that the robot announces."""
 Param = bool | int | float | Text
 """A parameter that only one skill has, such as a height."""
 NodeStatus = Literal["pending", "running", "done", "failed", "cancelled"]

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from wire.messages.observation import Covariance
-from wire.model import Id, Message, Probability, Stamp, Text, Vec2, Vec3, Word
+from wire.model import Id, Message, Probability, Stamp, Text, Vec2, Vec3, Word, unset
 
 RobotStatus = Literal["idle", "executing", "canceling", "holding", "lost", "fault"]
 YawDeg = Annotated[float, Field(ge=0.0, lt=360.0)]
@@ -29,6 +29,10 @@ class RobotState(Message):
     goal_id: str | None = None
     travelled_m: float = Field(default=0.0, ge=0.0)
     action_steps: int = Field(default=0, ge=0)
+    airborne: bool = Field(default=False, exclude_if=unset)
+    """Off the ground: `position_enu_m` says how high."""
+    battery: Probability | None = Field(default=None, exclude_if=unset)
+    """What is left of it, where the robot can tell."""
 
 
 class PropertyState(Message):
@@ -60,6 +64,8 @@ class ObjectState(Message):
     """A robot has seen it from close by, or handled it."""
     maybe: dict[Word, Probability] = {}
     """Other types that a good part of the looks took it for."""
+    seen_from_above: bool = Field(default=False, exclude_if=unset)
+    """A robot has hovered over it in the current task and looked down."""
 
 
 class AreaState(Message):
@@ -75,6 +81,10 @@ class AreaState(Message):
     source: Id | None = None
     searched: bool = False
     """A robot has gone through this room and looked at all of it in the current task."""
+    seen_from_above: bool = Field(default=False, exclude_if=unset)
+    """A robot has hovered in this room in the current task and looked down."""
+    surveyed: bool = Field(default=False, exclude_if=unset)
+    """A robot has flown over all of it in lanes in the current task."""
 
 
 class WorldState(Message):

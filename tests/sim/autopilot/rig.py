@@ -3,6 +3,8 @@
 import math
 from collections.abc import Callable
 
+import pybullet
+
 from sim.autopilot.firmware import Firmware
 from sim.autopilot.interface import Ack, Answer, Command, Item, PositionTarget, Severity
 from sim.autopilot.personality import PERSONALITIES
@@ -73,6 +75,20 @@ class Rig:
     def off(self, north: float, east: float, down: float) -> float:
         return math.dist(self.true_ned, (north, east, down))
 
+    def tip_over(self) -> None:
+        """Throw it on its back: up and half a turn about its nose."""
+        bullet, body = self.world.bullet, self.vehicle.body
+        (x, y, z), _ = bullet.getBasePositionAndOrientation(body)
+        for k in range(40):
+            angle = math.pi * k / 39
+            quaternion = bullet.getQuaternionFromEuler((angle, 0.0, math.pi / 2))
+            pybullet.resetBasePositionAndOrientation(
+                body, (x, y, max(z, 0.3)), quaternion, physicsClientId=bullet.client
+            )
+            bullet.resetBaseVelocity(body, (0.0, 0.0, 0.0), (0.0, math.pi / 39 * 240, 0.0))
+            self.fly(1 / 240)
+        bullet.resetBaseVelocity(body, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
     def take_off(self, height_m=1.5) -> None:
         """Armed and hovering at a height, in hold or guided mode."""
         if self.firmware.now.row.name == "ardupilot":
@@ -110,3 +126,13 @@ class Rig:
 
 def item(seq, command, x=0.0, y=0.0, z=0.0, params=(0.0, 0.0, 0.0, 0.0), frame=1) -> Item:
     return Item(seq, frame, command, False, True, params, x, y, z)
+
+
+def ardupilot(rig: Rig) -> bool:
+    return rig.firmware.now.row.name == "ardupilot"
+
+
+def put(rig: Rig, **values: float) -> None:
+    """Set parameters."""
+    for name, value in values.items():
+        assert not isinstance(rig.firmware.set_param(name, value), str), name

@@ -72,6 +72,14 @@ def test_it_holds_an_attitude_and_a_thrust(world) -> None:
     assert vehicle.estimate.velocity_ned_mps[0] > 0.8, "nose down flies north"
 
 
+def test_lowered_by_thrust_alone_it_notices_the_floor(world) -> None:
+    vehicle = take_off(world, -0.4)
+    for share in (0.93, 0.8, 0.6):
+        vehicle.command(AttitudeTarget((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), share * vehicle.hover_thrust))
+        world.advance(1.0)
+    assert vehicle.on_ground
+
+
 def test_without_power_it_falls_as_things_fall(world) -> None:
     vehicle = take_off(world, -2.5)
     vehicle.disarm()

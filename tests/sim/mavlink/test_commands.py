@@ -1,0 +1,153 @@
+"""Every command is acknowledged once, to whoever sent it."""
+
+import math
+
+import pytest
+from pymavlink.dialects.v20 import ardupilotmega as mav
+
+from sim.mavlink import streams
+from tests.sim.mavlink.bed import Bed
+
+NAN = math.nan
+
+
+def acks(client) -> list[tuple[int, int]]:
+    return [(ack.command, ack.result) for ack in client.all("COMMAND_ACK")]
+
+
+def test_unknown_command_is_unsupported_once(bed):
+    client = bed.client()
+    assert client.command(31999, NAN, NAN) == mav.MAV_RESULT_UNSUPPORTED
+    bed.advance(1.0)
+    assert acks(client) == [(31999, mav.MAV_RESULT_UNSUPPORTED)]
+
+
+def test_answer_goes_to_the_sender_alone(bed):
+    client, other = bed.client(), bed.client("udp", 200)
+    other.wait("HEARTBEAT")
+    client.command(mav.MAV_CMD_REQUEST_MESSAGE, 148)
+    ack = client.all("COMMAND_ACK")[0]
+    assert (ack.target_system, ack.target_component) == (245, 190)
+    assert (ack.get_srcSystem(), ack.get_srcComponent()) == (1, 1)
+    assert client.wait("AUTOPILOT_VERSION").capabilities == bed.firmware.now.row.capabilities
+    bed.advance(0.5)
+    assert not other.all("COMMAND_ACK")
+    assert not other.all("AUTOPILOT_VERSION")
+
+
+def test_another_vehicle_and_an_absent_component_are_left_alone(bed):
+    client = bed.client()
+    for target in ((7, 1), (1, 42)):
+        client.mav.command_long_send(*target, mav.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1, 0, 0, 0, 0, 0, 0)
+    bed.advance(1.0)
+    assert not client.all("COMMAND_ACK")
+
+
+def test_to_everybody_is_for_it_too(bed):
+    client = bed.client()
+    assert client.command(mav.MAV_CMD_REQUEST_MESSAGE, 0, target=(0, 0)) == mav.MAV_RESULT_ACCEPTED
+
+
+@pytest.mark.parametrize("wanted", [NAN, math.inf, -1, 1e30, 12345, 0.5])
+def test_message_that_does_not_exist(bed, wanted):
+    client = bed.client()
+    assert client.command(mav.MAV_CMD_REQUEST_MESSAGE, wanted) == mav.MAV_RESULT_UNSUPPORTED
+    assert client.command(mav.MAV_CMD_SET_MESSAGE_INTERVAL, wanted, 1e5) == mav.MAV_RESULT_DENIED
+
+
+def test_intervals_of_one_peer_only(bed):
+    client, other = bed.client(), bed.client("udp", 200)
+    other.wait("ATTITUDE")
+    assert client.command(mav.MAV_CMD_SET_MESSAGE_INTERVAL, 30, -1) == 0
+    client.forget()
+    other.forget()
+    bed.advance(2.0)
+    assert not client.all("ATTITUDE")
+    assert 38 <= len(other.all("ATTITUDE")) <= 42
+    assert client.command(mav.MAV_CMD_SET_MESSAGE_INTERVAL, 30, 20000) == 0
+    assert client.command(mav.MAV_CMD_GET_MESSAGE_INTERVAL, 30) == 0
+    assert client.wait("MESSAGE_INTERVAL").interval_us == 20000
+    client.forget()
+    bed.advance(2.0)
+    assert 95 <= len(client.all("ATTITUDE")) <= 101
+    assert client.command(mav.MAV_CMD_SET_MESSAGE_INTERVAL, 30, 0) == 0
+    client.forget()
+    bed.advance(2.0)
+    assert 38 <= len(client.all("ATTITUDE")) <= 42
+
+
+def test_legacy_stream_request(bed):
+    client = bed.client()
+    client.mav.request_data_stream_send(1, 1, mav.MAV_DATA_STREAM_ALL, 4, 1)
+    bed.advance(0.5)
+    client.forget()
+    bed.advance(2.0)
+    assert 7 <= len(client.all("ATTITUDE")) <= 9
+    client.mav.request_data_stream_send(1, 1, mav.MAV_DATA_STREAM_ALL, 0, 0)
+    bed.advance(0.5)
+    client.forget()
+    bed.advance(2.0)
+    assert not client.all("ATTITUDE")
+    assert client.all("HEARTBEAT")
+
+
+def test_everything_that_streams_comes_at_its_rate(bed):
+    client = bed.client("udp")
+    client.wait("HEARTBEAT", such=lambda m: m.get_srcComponent() == 1)
+    bed.advance(3.0)
+    client.forget()
+    bed.advance(4.0)
+    craft = bed.endpoint.nodes[0].craft
+    sometimes = {85, 62}
+    for message_id in streams.MESSAGES.keys() - sometimes:
+        name = mav.mavlink_map[message_id].msgname
+        rate = streams.usual_rate_hz(craft, message_id)
+        got = [m for m in client.all(name) if m.get_srcComponent() == 1]
+        assert abs(len(got) - 4 * rate) <= 1 + 0.05 * 4 * rate, (name, len(got), rate)
+
+
+def test_mode_by_command_and_by_message(bed):
+    client = bed.client()
+    bed.advance(3.0)
+    row = bed.firmware.now.row
+    hold = row.modes["hold"]
+    params = (1, hold >> 16 & 0xFF, hold >> 24) if row.name == "px4" else (1, hold)
+    assert client.command(mav.MAV_CMD_DO_SET_MODE, *params, NAN) == 0
+    client.wait("HEARTBEAT", such=lambda m: m.custom_mode == hold)
+    client.forget()
+    client.mav.set_mode_send(1, 1, row.modes["stabilize"])
+    assert client.wait("COMMAND_ACK").command == 11
+    client.wait("HEARTBEAT", such=lambda m: m.custom_mode == row.modes["stabilize"])
+    for wrong in (NAN, math.inf, -3.0, 1e9):
+        assert client.command(mav.MAV_CMD_DO_SET_MODE, 1, wrong) in (2, 3, 4)
+
+
+def test_command_int_is_scaled(bed):
+    client = bed.client()
+    client.fly()
+    here = client.wait("GLOBAL_POSITION_INT")
+    north = here.lat + 180
+    params = (-1, 1, 0, NAN)
+    client.mav.command_int_send(1, 1, 6, mav.MAV_CMD_DO_REPOSITION, 0, 0, *params, north, here.lon, 1.5)
+    assert client.wait("COMMAND_ACK").result == 0, client.texts()
+    client.wait("LOCAL_POSITION_NED", 15.0, lambda m: abs(m.x - 2.0) < 0.2)
+
+
+def test_takeoff_reports_and_lands(bed):
+    client = bed.client()
+    client.fly()
+    assert client.command(mav.MAV_CMD_NAV_LAND) == 0
+    client.wait("EXTENDED_SYS_STATE", 20.0, lambda m: m.landed_state == 1)
+    client.wait("HEARTBEAT", 20.0, lambda m: m.get_srcComponent() == 1 and not m.base_mode & 128)
+
+
+def test_one_system_id_a_vehicle():
+    with Bed("ardupilot", "--vehicles", "3") as bed:
+        client = bed.client()
+        client.wait("HEARTBEAT")
+        bed.advance(2.0)
+        assert {m.get_srcSystem() for m in client.heard} == {1, 2, 3}
+        assert client.command(mav.MAV_CMD_DO_SET_MODE, 1, 4, target=(2, 1)) == 0
+        bed.advance(2.0)
+        modes = {m.get_srcSystem(): m.custom_mode for m in client.all("HEARTBEAT") if m.get_srcComponent() == 1}
+        assert modes == {1: 0, 2: 4, 3: 0}

@@ -180,7 +180,9 @@ def what_is_wrong(png: Path | None, peer: Path | None) -> str | None:
     if peer is None:
         return None
     if not (peer / "gym_pybullet_drones" / "envs").is_dir():
-        return f"--peer {peer}: not a checkout of gym-pybullet-drones, there is no folder gym_pybullet_drones/envs in it"
+        return (
+            f"--peer {peer}: not a checkout of gym-pybullet-drones, there is no folder gym_pybullet_drones/envs in it"
+        )
     missing = [name for name in _PEER_NEEDS if find_spec(name) is None]
     if missing:
         return f"--peer {peer}: gym-pybullet-drones needs {', '.join(missing)}, not installed beside {sys.executable}"

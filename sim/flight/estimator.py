@@ -18,7 +18,9 @@ _LEVEL_PER_S, _GYRO_BIAS_PER_S = 0.25, 0.02
 _COMPASS, _OUTSIDE_HEADING = 0.02, 0.1
 _TILT_PER_MPS = 0.01
 _FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS = 0.18, 0.22, 0.5
-_POSE_POSITION, _POSE_CROSS = 0.25, 1.6
+_POSE_PER_S, _MOST_POSE, _POSE_CROSS = 6.0, 0.6, 2.4
+_FIXES_APART_S, _MOST_WEIGHT = 0.05, 2.0
+"""The gains of tilt and bias are for corrections this far apart; rarer ones weigh more, up to so many times."""
 _BIAS_PER_MPS, _MOST_BIAS = 0.06, 0.8
 _BARO_HEIGHT, _BARO_CLIMB = 0.02, 0.01
 _JUMP_M = 2.0
@@ -114,7 +116,8 @@ class Estimator:
         if now_s - self._fixed_s > FRESH_S:
             dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
             un, ue, ud = (_POSE_CROSS * d for d in (dn, de, dd))
-            self._correct(dn, de, dd, un, ue, ud, _POSE_POSITION, span_s, 0.0)
+            place = min(_MOST_POSE, _POSE_PER_S * span_s)  # poses come at any rate, from 5 to 200 a second
+            self._correct(dn, de, dd, un, ue, ud, place, span_s, 0.0, min(_MOST_WEIGHT, span_s / _FIXES_APART_S))
 
     def restart(self, position_ned_m: Vec3, velocity_ned_mps: Vec3 = (0.0, 0.0, 0.0)) -> None:
         """Take a place and a velocity as they are."""
@@ -160,7 +163,17 @@ class Estimator:
         told.velocity_std_mps = 0.03 + 0.1 * min(100.0, max(0.0, age_s - 0.3))
 
     def _correct(
-        self, dn: float, de: float, dd: float, un: float, ue: float, ud: float, place: float, speed: float, cross: float
+        self,
+        dn: float,
+        de: float,
+        dd: float,
+        un: float,
+        ue: float,
+        ud: float,
+        place: float,
+        speed: float,
+        cross: float,
+        weight: float = 1.0,
     ) -> None:
         self.pn += place * dn
         self.pe += place * de
@@ -168,11 +181,11 @@ class Estimator:
         self.vn += speed * un + cross * dn
         self.ve += speed * ue + cross * de
         self.vd += speed * ud + cross * dd
-        drift = self._bias_a
+        drift, learn, tilt = self._bias_a, weight * _BIAS_PER_MPS, weight * _TILT_PER_MPS
         for k, u in ((0, un), (1, ue), (2, ud)):
-            drift[k] = max(-_MOST_BIAS, min(_MOST_BIAS, drift[k] + _BIAS_PER_MPS * u))
+            drift[k] = max(-_MOST_BIAS, min(_MOST_BIAS, drift[k] + learn * u))
         # an unforeseen push to the north is a lean that was not seen: the attitude turns about east, and so on
-        self._turn(_TILT_PER_MPS * ue, -_TILT_PER_MPS * un, 0.0)
+        self._turn(tilt * ue, -tilt * un, 0.0)
 
     def _turn(self, north: float, east: float, down: float) -> None:
         """Turn the attitude by a small angle about NED axes, or a large one about down alone."""

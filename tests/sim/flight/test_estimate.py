@@ -1,6 +1,7 @@
 """What the estimator is worth when its sources come late, go away or come back."""
 
-from math import dist, pi
+from math import dist, pi, sqrt
+from random import Random
 
 import pytest
 
@@ -143,3 +144,31 @@ def test_without_a_compass_it_keeps_its_heading_for_a_while(world) -> None:
     world.advance(10.0)
     assert dist(place_ned(vehicle), (0.0, 0.0, -2.0)) < 0.1
     assert vehicle.true_pose()[1] == pytest.approx(pi / 2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("every", [48, 24, 8, 2])
+@pytest.mark.parametrize("late", [0, 24])
+def test_noisy_poses_hold_the_place_at_any_rate_and_somewhat_late(every, late) -> None:
+    """`every`: physics steps from pose to pose, 5 to 120 Hz. `late`: steps by which they are old, up to 100 ms."""
+    world, noise = BareFloor(seed=2, fixes=False), Random(2)
+    vehicle, track = world.vehicles[0], list[Vec3]()
+
+    def advance(steps: int) -> None:
+        for _ in range(steps):
+            track.append(place_ned(vehicle))
+            if world.steps % every == 0:
+                n, e, d = track[max(0, len(track) - 1 - late)]
+                seen = (n + noise.gauss(0.0, 0.01), e + noise.gauss(0.0, 0.01), d + noise.gauss(0.0, 0.01))
+                vehicle.external_pose(world.now_s, seen, None)
+            world.advance(1.0 / 240.0)
+
+    advance(240)
+    vehicle.arm()
+    vehicle.command(Trajectory((0.0, 0.0, -2.0), heading_rad=0.0))
+    advance(8 * 240)
+    track.clear()
+    track.append(place_ned(vehicle))
+    advance(10 * 240)
+    held = track[1:]
+    assert sqrt(sum(dist(place, (0.0, 0.0, -2.0)) ** 2 for place in held) / len(held)) < 0.05
+    world.close()

@@ -21,7 +21,7 @@ ROTOR_RADIUS_M = 0.11
 ROTOR_HEIGHT_M = 0.1
 """Above the feet."""
 POWER_W = 137.0
-"""Of one rotor at full speed; power goes with the cube of the speed."""
+"""Of one rotor at full speed and 16 V; power goes with the cube of both."""
 AVIONICS_W = 6.0
 DRAG_NPMPS, DRAG_NPMPS2 = 0.18, 0.05
 IDLE = 0.12
@@ -63,9 +63,10 @@ class Rotors:
             TORQUE_PER_THRUST_M * (a + b - c - d),
         )
 
-    def power_w(self) -> float:
+    def power_w(self, voltage_v: float) -> float:
+        """Electrical: a lower voltage needs more throttle for the same thrust, not more power."""
         a, b, c, d = self.speeds
-        return POWER_W * (a * a * a + b * b * b + c * c * c + d * d * d)
+        return POWER_W * (voltage_v / 16.0) ** 3 * (a * a * a + b * b * b + c * c * c + d * d * d)
 
 
 def ground_effect(height_m: float) -> float:

@@ -18,19 +18,23 @@ _LEVEL_PER_S, _GYRO_BIAS_PER_S = 0.25, 0.02
 _COMPASS, _OUTSIDE_HEADING = 0.02, 0.1
 _TILT_PER_MPS = 0.01
 _FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS = 0.18, 0.22, 0.5
-_POSE_POSITION, _POSE_CROSS = 0.25, 1.6
+_POSE_PER_S, _MOST_POSE, _POSE_CROSS = 6.0, 0.6, 2.4
+_FIXES_APART_S, _MOST_WEIGHT = 0.05, 2.0
+"""The gains of tilt and bias are for corrections this far apart; rarer ones weigh more, up to so many times."""
 _BIAS_PER_MPS, _MOST_BIAS = 0.06, 0.8
 _BARO_HEIGHT, _BARO_CLIMB = 0.02, 0.01
 _JUMP_M = 2.0
 """A pose this far from the estimate begins it anew."""
+_CARRIED_S = 5.0
+"""For this long without fix or pose, the velocity from the accelerometer alone is worth more than none."""
 
 
 class Estimator:
     """`predict` at every physics step, the others as measurements come."""
 
     __slots__ = (
-        "_bias_a", "_bias_n", "_fixed_s", "_lost_s", "_pose_s", "_started", "estimate", "pd", "pe", "pn", "q", "vd", "ve",
-        "vn", "wx", "wy", "wz",
+        "_baro_s", "_bias_a", "_bias_n", "_fixed_s", "_headed_s", "_pose_s", "_started", "estimate", "pd", "pe", "pn", "q",
+        "vd", "ve", "vn", "wx", "wy", "wz",
     )  # fmt: skip
 
     def __init__(self, position_ned_m: Vec3, heading_rad: float) -> None:
@@ -42,7 +46,7 @@ class Estimator:
         """Of the acceleration, in NED."""
         self._bias_n = [0.0, 0.0, 0.0]
         """Of the gyroscope, in FRD."""
-        self._fixed_s = self._pose_s = self._lost_s = -1e9
+        self._fixed_s = self._pose_s = self._headed_s = self._baro_s = -1e9
         self._started = False
         self.estimate = Estimate()
 
@@ -90,30 +94,40 @@ class Estimator:
     def fix(self, now_s: float, position_ned_m: Vec3, velocity_ned_mps: Vec3, span_s: float) -> None:
         """A fix of the indoor position system, `span_s` after the one before."""
         if now_s - max(self._fixed_s, self._pose_s) > FRESH_S:
-            self.restart(position_ned_m)
+            self.restart(position_ned_m, velocity_ned_mps)
         self._fixed_s = now_s
         dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
         un, ue, ud = (z - v for z, v in zip(velocity_ned_mps, (self.vn, self.ve, self.vd), strict=True))
         self._correct(dn, de, dd, un, ue, ud, _FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS * span_s)
 
     def pose(self, now_s: float, position_ned_m: Vec3, heading_rad: float | None) -> None:
-        """A pose from outside: vision, motion capture."""
-        span_s = min(0.2, now_s - self._pose_s)
+        """A pose from outside: vision, motion capture. One that is no newer than the last is passed over."""
+        if now_s <= self._pose_s:
+            return
+        span_s, age_s = min(0.2, now_s - self._pose_s), now_s - max(self._fixed_s, self._pose_s)
         far = max(abs(z - p) for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True)) > _JUMP_M
-        if now_s - max(self._fixed_s, self._pose_s) > FRESH_S or far:
-            self.restart(position_ned_m)
+        if age_s > FRESH_S or far:
+            known = age_s < _CARRIED_S
+            self.restart(position_ned_m, (self.vn, self.ve, self.vd) if known else (0.0, 0.0, 0.0))
         self._pose_s = now_s
         if heading_rad is not None:
+            self._headed_s = now_s
             self._turn(0.0, 0.0, _OUTSIDE_HEADING * wrapped(heading_rad - heading(self.q)))
         if now_s - self._fixed_s > FRESH_S:
             dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
             un, ue, ud = (_POSE_CROSS * d for d in (dn, de, dd))
-            self._correct(dn, de, dd, un, ue, ud, _POSE_POSITION, span_s, 0.0)
+            place = min(_MOST_POSE, _POSE_PER_S * span_s)  # poses come at any rate, from 5 to 200 a second
+            self._correct(dn, de, dd, un, ue, ud, place, span_s, 0.0, min(_MOST_WEIGHT, span_s / _FIXES_APART_S))
 
-    def restart(self, position_ned_m: Vec3) -> None:
-        """Take a place as it is, and rest there."""
+    def restart(self, position_ned_m: Vec3, velocity_ned_mps: Vec3 = (0.0, 0.0, 0.0)) -> None:
+        """Take a place and a velocity as they are."""
         self.pn, self.pe, self.pd = position_ned_m
-        self.vn = self.ve = self.vd = 0.0
+        self.vn, self.ve, self.vd = velocity_ned_mps
+
+    def stand(self, now_s: float) -> None:
+        """It stands with its rotors off: where nothing else says so, its velocity is none, and biases show."""
+        if now_s - max(self._fixed_s, self._pose_s) > FRESH_S:
+            self._correct(0.0, 0.0, 0.0, -self.vn, -self.ve, -self.vd, 0.0, _FIX_VELOCITY, 0.0)
 
     def compass(self, now_s: float, mag_frd_gauss: Vec3) -> None:
         roll, pitch, yaw = euler(self.q)
@@ -121,17 +135,18 @@ class Estimator:
         if not self._started:
             self._started = True
             self._turn(0.0, 0.0, error)
-        elif now_s - self._pose_s > FRESH_S:
+        elif now_s - self._headed_s > FRESH_S:
             self._turn(0.0, 0.0, _COMPASS * error)
 
     def barometer(self, now_s: float, height_m: float) -> None:
         """Height above the site's floor, used while there is nothing better."""
+        self._baro_s = now_s
         if now_s - max(self._fixed_s, self._pose_s) > FRESH_S:
             error = -height_m - self.pd
             self.pd += _BARO_HEIGHT * error
             self.vd += _BARO_CLIMB * error
 
-    def tell(self, now_s: float) -> None:
+    def tell(self, now_s: float, gyro_works: bool = True) -> None:
         """Bring `estimate` up to date."""
         told = self.estimate
         age_s = now_s - max(self._fixed_s, self._pose_s)
@@ -142,12 +157,23 @@ class Estimator:
         told.roll_rad, told.pitch_rad, told.heading_rad = euler(self.q)
         told.rates_frd_radps = (self.wx, self.wy, self.wz)
         told.position_ok = self._started and age_s < FRESH_S
-        told.height_ok = told.attitude_ok = self._started
+        told.attitude_ok = self._started and gyro_works
+        told.height_ok = self._started and (age_s < FRESH_S or now_s - self._baro_s < FRESH_S)
         told.position_std_m = 0.02 + 0.3 * min(100.0, max(0.0, age_s - 0.3))
         told.velocity_std_mps = 0.03 + 0.1 * min(100.0, max(0.0, age_s - 0.3))
 
     def _correct(
-        self, dn: float, de: float, dd: float, un: float, ue: float, ud: float, place: float, speed: float, cross: float
+        self,
+        dn: float,
+        de: float,
+        dd: float,
+        un: float,
+        ue: float,
+        ud: float,
+        place: float,
+        speed: float,
+        cross: float,
+        weight: float = 1.0,
     ) -> None:
         self.pn += place * dn
         self.pe += place * de
@@ -155,11 +181,11 @@ class Estimator:
         self.vn += speed * un + cross * dn
         self.ve += speed * ue + cross * de
         self.vd += speed * ud + cross * dd
-        drift = self._bias_a
+        drift, learn, tilt = self._bias_a, weight * _BIAS_PER_MPS, weight * _TILT_PER_MPS
         for k, u in ((0, un), (1, ue), (2, ud)):
-            drift[k] = max(-_MOST_BIAS, min(_MOST_BIAS, drift[k] + _BIAS_PER_MPS * u))
+            drift[k] = max(-_MOST_BIAS, min(_MOST_BIAS, drift[k] + learn * u))
         # an unforeseen push to the north is a lean that was not seen: the attitude turns about east, and so on
-        self._turn(_TILT_PER_MPS * ue, -_TILT_PER_MPS * un, 0.0)
+        self._turn(tilt * ue, -tilt * un, 0.0)
 
     def _turn(self, north: float, east: float, down: float) -> None:
         """Turn the attitude by a small angle about NED axes, or a large one about down alone."""

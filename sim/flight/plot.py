@@ -25,7 +25,8 @@ def draw_steps(path: Path, seed: int = 0) -> None:
     for row, (name, axis, target, span_s) in enumerate(_STEPS):
         times, values = _respond(axis, target, span_s, seed)
         top = row * (_HEIGHT_PX + _GAP_PX) + _GAP_PX
-        _draw(image, top, name, times, values, _START[axis], target[axis])
+        sign = -1.0 if axis == 2 else 1.0  # heights are drawn, not depths
+        _draw(image, top, name, times, values, sign * _START[axis], sign * target[axis])
     cv2.imwrite(str(path), image)
 
 
@@ -41,7 +42,7 @@ def _respond(axis: int, target: Vec3, span_s: float, seed: int) -> tuple[list[fl
     for step in range(round(span_s / 0.05)):
         east, north, up = vehicle.true_pose()[0]
         times.append(0.05 * step)
-        values.append((north, east, -up)[axis])
+        values.append((north, east, up)[axis])
         world.advance(0.05)
     world.close()
     return times, values

@@ -10,10 +10,11 @@ _RESISTANCE_OHM = 0.03
 class Power:
     """Drained by what the rotors take."""
 
-    __slots__ = ("_drain_s", "_pinned_v", "state")
+    __slots__ = ("_broken_at", "_drain_s", "_pinned_v", "state")
 
     def __init__(self) -> None:
         self.state = Battery(voltage_v=_rest_v(1.0))
+        self._broken_at: float | None = None
         self._drain_s: float | None = None
         self._pinned_v: float | None = None
 
@@ -26,6 +27,15 @@ class Power:
             self._drain_s = drain_s or None
         if voltage_v is not None:
             self._pinned_v = voltage_v or None
+
+    def fail(self, works: bool) -> None:
+        """A broken battery gives nothing; a mended one has the charge that it had."""
+        if works and self._broken_at is not None:
+            self.provoke(self._broken_at, None, None)
+            self._broken_at = None
+        elif not works and self._broken_at is None:
+            self._broken_at = self.state.remaining
+            self.provoke(0.0, None, None)
 
     def draw(self, power_w: float, span_s: float) -> None:
         state = self.state

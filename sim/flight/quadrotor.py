@@ -58,7 +58,9 @@ class Quadrotor:
         self._touchdown = Touchdown()
         self._setpoint: Setpoint = Off()
         self._armed = False
-        self._steps = 0
+        self._steps = self._sensed = 0
+        self._dozes = False
+        """It lies still with its rotors off: it looks and thinks at the slower rate only."""
         self._before_mps: Vec3 = (0.0, 0.0, 0.0)
         self.now_s = 0.0
 
@@ -95,7 +97,7 @@ class Quadrotor:
         return (a, b, c, d)
 
     def arm(self) -> None:
-        self._armed = True
+        self._armed, self._dozes = True, False
         self._control.press_down(self.estimate.heading_rad)
 
     def disarm(self) -> None:
@@ -114,7 +116,7 @@ class Quadrotor:
             raise ValueError(f"no unit {unit}; there are {', '.join(sorted(healthy))}")
         healthy[unit] = works and (unit != "fix" or self._sensing.fixes)
         if unit == "battery":
-            self._power.provoke(None if works else 0.0, None, None)
+            self._power.fail(works)
 
     def set_battery(self, remaining: float | None, drain_s: float | None, voltage_v: float | None) -> None:
         self._power.provoke(remaining, drain_s, voltage_v)
@@ -127,6 +129,11 @@ class Quadrotor:
     def before_step(self, now_s: float) -> None:
         """Sense, estimate, decide, and push the body for the coming step of physics."""
         self.now_s = now_s
+        if self._dozes and self._steps % GUIDE_EVERY:
+            self._steps += 1
+            return
+        span_s = max(1, self._steps - self._sensed) * STEP_S
+        self._sensed = self._steps
         bullet, estimator = self._bullet, self._estimator
         (x, y, z), (qx, qy, qz, qw) = bullet.getBasePositionAndOrientation(self.body)
         (vx, vy, vz), (wx, wy, wz) = bullet.getBaseVelocity(self.body)
@@ -138,7 +145,7 @@ class Quadrotor:
         r20, r21, r22 = 2.0 * (xz - wyq), 2.0 * (yz + wxq), 1.0 - 2.0 * (xx + yy)
         bx, by, bz = self._before_mps
         self._before_mps = (vx, vy, vz)
-        ax, ay, az = (vx - bx) / STEP_S, (vy - by) / STEP_S, (vz - bz) / STEP_S + GRAVITY_MPS2
+        ax, ay, az = (vx - bx) / span_s, (vy - by) / span_s, (vz - bz) / span_s + GRAVITY_MPS2
         p, q, r = r00 * wx + r10 * wy + r20 * wz, r01 * wx + r11 * wy + r21 * wz, r02 * wx + r12 * wy + r22 * wz
         sensing = self._sensing
         sensing.inertial(
@@ -150,18 +157,20 @@ class Quadrotor:
             ),
         )
         readings = sensing.readings
-        estimator.predict(readings.gyro_frd_radps, readings.accel_frd_mps2, STEP_S)
+        estimator.predict(readings.gyro_frd_radps, readings.accel_frd_mps2, span_s)
         feet_m = z - HALF_M[2]
         if self._steps % SLOW_EVERY == 0:
             self._look_slowly(now_s, (y, x, -feet_m), (vy, vx, -vz), from_bullet(qx, qy, qz, qw))
         if self._steps % GUIDE_EVERY == 0:
-            estimator.tell(now_s)
+            estimator.tell(now_s, readings.healthy["gyro"])
             self._guide(now_s)
         self._steps += 1
         self._turn_rotors()
         thrust, roll, pitch, yaw = self._rotors.wrench(self._power.state.voltage_v, feet_m)
         if thrust < 1e-3 and vx * vx + vy * vy + vz * vz < 1e-6:
+            self._dozes = not self._armed and wx * wx + wy * wy + wz * wz < 1e-6
             return
+        self._dozes = False
         drag = DRAG_NPMPS + DRAG_NPMPS2 * sqrt(vx * vx + vy * vy + vz * vz)
         bullet.applyExternalForce(
             self.body,
@@ -189,7 +198,9 @@ class Quadrotor:
             estimator.compass(now_s, readings.mag_frd_gauss)
         if readings.healthy["baro"]:
             estimator.barometer(now_s, sensing.baro_height_m())
-        self._power.draw(self._rotors.power_w() + AVIONICS_W, SLOW_EVERY * STEP_S)
+        if self._touchdown.landed and not self._armed:
+            estimator.stand(now_s)
+        self._power.draw(self._rotors.power_w(self._power.state.voltage_v) + AVIONICS_W, SLOW_EVERY * STEP_S)
 
     def _guide(self, now_s: float) -> None:
         control, estimator, setpoint = self._control, self._estimator, self._setpoint

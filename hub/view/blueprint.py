@@ -8,7 +8,11 @@ TIMELINE = "time"
 
 
 def blueprint(
-    cameras: Sequence[str], robots: Sequence[str], centre_m: tuple[float, float], span_m: float
+    cameras: Sequence[str],
+    robots: Sequence[str],
+    centre_m: tuple[float, float],
+    span_m: float,
+    flyers: Sequence[str] = (),
 ) -> rrb.Blueprint:
     """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right."""
     x, y = centre_m
@@ -21,6 +25,7 @@ def blueprint(
         ),
     )
     pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *robots)]
+    flight = [rrb.TimeSeriesView(origin="flight", name="Battery and height")] if flyers else []
     return rrb.Blueprint(
         rrb.Horizontal(
             rrb.Vertical(world, rrb.StateTimelineView(origin="tasks", name="What each robot does"), row_shares=[4, 1]),
@@ -29,6 +34,7 @@ def blueprint(
                 rrb.GraphView(origin="plan", name="Plan"),
                 rrb.TextDocumentView(origin="task", name="Task"),
                 rrb.TimeSeriesView(origin="metrics", name="Metrics"),
+                *flight,
                 rrb.TextLogView(origin="log", name="Events"),
             ),
             column_shares=[5, 4, 3],

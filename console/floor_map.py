@@ -37,6 +37,7 @@ class FloorMap:
         self._site = site
         self._taken: list[tuple[int, int, int, int]] = []
         """Names that are written: left, top, right, bottom."""
+        self._flyers = {robot.id for robot in site.robot if robot.kind == "drone"}
 
     def _px(self, point_m: Vec2 | Vec3) -> tuple[int, int]:
         return (int((point_m[0] - self._west_m) * _PX_PER_M), int((self._north_m - point_m[1]) * _PX_PER_M))
@@ -86,8 +87,20 @@ class FloorMap:
             colour = _ROBOT_BGR[index % len(_ROBOT_BGR)]
             cv2.polylines(self._image, [self._polygon(trail)], False, colour, 3, cv2.LINE_AA)
             cv2.circle(self._image, self._px(trail[0]), 6, colour, 2, cv2.LINE_AA)
-            cv2.circle(self._image, self._px(trail[-1]), 11, colour, -1, cv2.LINE_AA)
+            if robot in self._flyers:
+                self._quadrotor(trail[-1], colour)
+            else:
+                cv2.circle(self._image, self._px(trail[-1]), 11, colour, -1, cv2.LINE_AA)
             self._label(robot, trail[-1], 16, colour, 0.55)
+
+    def _quadrotor(self, at_m: Vec2, colour: tuple[int, int, int]) -> None:
+        """Two crossed arms with a rotor at each of their ends."""
+        x, y = self._px(at_m)
+        tips = [(x + i * 10, y + j * 10) for i, j in ((1, 1), (-1, -1), (1, -1), (-1, 1))]
+        for a, b in (tips[:2], tips[2:]):
+            cv2.line(self._image, a, b, colour, 3, cv2.LINE_AA)
+        for tip in tips:
+            cv2.circle(self._image, tip, 6, colour, 2, cv2.LINE_AA)
 
     def draw_objects(self, world: WorldState) -> None:
         """First all dots, then their names where there is room."""

@@ -6,12 +6,13 @@ from typing import Annotated
 import typer
 
 from console.bring_up import bring_up
-from console.client import ClientError, presence
+from console.client import Client, ClientError, presence
 from console.logs import show_logs
 from console.output import emit, fail, terminal
 from console.places import current_mesh, known_sites, prepare
 from deploy.launch import LaunchError, Mesh, ProcessInfo
 from wire.access import devices_of
+from wire.messages.world import RobotState, SnapshotRequest, WorldState
 from wire.site import Site, SiteError, load_site
 
 Json = Annotated[bool, typer.Option("--json", help="print one JSON document instead of text")]
@@ -65,6 +66,7 @@ def status(json_: Json = False) -> None:
         rows = mesh.processes()
         site = load_site(mesh.site_file)
         here = _announced(mesh, site)
+        flyers = _flyers(mesh, site, here)
     except (SiteError, LaunchError) as error:
         fail(str(error), json_)
     devices = device_names(site)
@@ -80,11 +82,20 @@ def status(json_: Json = False) -> None:
                 "pid": r.pid,
                 "up_s": r.up_s,
                 "announced": r.id in here,
+                **(
+                    {"height_m": round(f.position_enu_m[2], 2), "battery": f.battery} if (f := flyers.get(r.id)) else {}
+                ),
             }
             for r in rows
         ],
     }
-    emit(document, "\n".join(_line(row, devices.get(row.id, ""), row.id in here) for row in rows), json_)
+    emit(
+        document,
+        "\n".join(
+            _line(row, devices.get(row.id, ""), row.id in here) + flight_text(flyers.get(row.id)) for row in rows
+        ),
+        json_,
+    )
 
 
 def device_names(site: Site) -> dict[str, str]:
@@ -100,6 +111,27 @@ def _announced(mesh: Mesh, site: Site) -> set[str]:
         return presence(site, mesh.credentials_dir) | routers
     except ClientError:
         return set()
+
+
+def _flyers(mesh: Mesh, site: Site, here: set[str]) -> dict[str, RobotState]:
+    """The drones as the hub knows them; none where it cannot be asked."""
+    rows = {robot.id for robot in site.robot if robot.kind == "drone"}
+    if not rows & here:
+        return {}
+    try:
+        with Client(site, mesh.credentials_dir) as client:
+            world = client.ask("snapshot", SnapshotRequest(), WorldState, tries=1)
+    except ClientError:
+        return {}
+    return {robot.id: robot for robot in world.robots if robot.id in rows}
+
+
+def flight_text(flyer: RobotState | None) -> str:
+    """How high a drone is and how full, for the end of its line; empty for everything else."""
+    if flyer is None:
+        return ""
+    power = f"battery {flyer.battery:.0%}" if flyer.battery is not None else "battery not told"
+    return f"  {f'{flyer.position_enu_m[2]:.1f} m high' if flyer.airborne else 'on the floor'}, {power}"
 
 
 def _line(row: ProcessInfo, device: str, announced: bool) -> str:

@@ -52,7 +52,7 @@ def why(thing: Annotated[str, typer.Argument(help="an object: words or its id")]
     except FAULTS as error:
         fail(str(error), json_)
     emit(reply.model_dump(mode="json"), why_text(reply), json_)
-    if not reply.entries:
+    if not reply.entries and reply.robot is None:
         raise typer.Exit(1)
 
 

@@ -34,7 +34,9 @@ def demo(
     out: Annotated[Path, typer.Option(help="where the results go")] = Path("out/demo"),
     limit_s: Annotated[float, typer.Option(help="give up after this many seconds")] = 600.0,
     keep: Annotated[bool, typer.Option("--keep", help="leave the mesh up afterwards")] = False,
-    drones: Annotated[int, typer.Option(help="how many drones fly too", min=0, max=4)] = 1,
+    drones: Annotated[
+        int, typer.Option(help="how many drones fly too, and are asked for a look from above", min=0, max=4)
+    ] = 0,
     json_: Json = False,
 ) -> None:
     """Bring a home full of cameras and robots up, have one instruction done, judge it, write out/demo/."""

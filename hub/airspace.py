@@ -16,6 +16,8 @@ from hub.traffic import Traffic
 from hub.ways import cut, point_to_path_m
 from wire.model import Vec2, Vec3
 
+LOW_M = 1.4
+"""What flies lower than this is among the robots on the floor: they reach that high with their masts."""
 SEPARATION_M = 0.6
 """From one level to the next."""
 AROUND_M = 0.08
@@ -50,8 +52,8 @@ class Flyer:
 
     @property
     def rising(self) -> bool:
-        """Up or down by a skill that tells of no way."""
-        return not self.path_m and abs(self.climb_mps) > _FREE_MPS
+        """Up or down by a skill that tells of no way: so is who has something to do and is just off the floor."""
+        return not self.path_m and (abs(self.climb_mps) > _FREE_MPS or (self.busy and self.position_m[2] < LOW_M))
 
     @property
     def way(self) -> list[Vec2]:

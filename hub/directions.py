@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import hypot
 
-from hub.airspace import AirRuling, Airspace, Flyer, levels
+from hub.airspace import LOW_M, AirRuling, Airspace, Flyer, levels
 from hub.fleet import Robot
 from hub.floor import FloorPlan
 from hub.kinds import shape
@@ -15,8 +15,6 @@ from wire.model import Vec2
 from wire.site import Site
 
 _OTHERS_M = 4.0
-_LOW_M = 1.4
-"""What flies lower than this is among the robots on the floor: they reach that high with their masts."""
 _UNDER_CEILING_M = 0.4
 _TALL_M = 1.2
 _USUAL_M = 1.5
@@ -105,7 +103,7 @@ def _flyer(robot: Robot) -> Flyer:
 
 
 def _is_low(flyer: Flyer) -> bool:
-    return not flyer.airborne or flyer.heights_m[0] < _LOW_M
+    return not flyer.airborne or flyer.heights_m[0] < LOW_M
 
 
 def _both(floor: Ruling | None, above: AirRuling | None, flyer: Flyer | None) -> Ruling:

@@ -5,6 +5,7 @@ from difflib import get_close_matches
 from math import exp
 
 from hub.containment import hidden
+from hub.fleet import Robot
 from hub.records import Fact, Thing
 from hub.showing import confidence, state
 from hub.world import World
@@ -20,6 +21,9 @@ _ALIKE = 0.75
 
 def why(world: World, words: str, now_s: float) -> WhyReply:
     """Answer for an id or for words such as "mug in the kitchen"."""
+    flyer = world.fleet.robots.get(words.strip().lower())
+    if flyer is not None and (flyer.flies or flyer.airborne):
+        return WhyReply(now_s=now_s, text=tell_flyer(world, flyer, now_s), robot=flyer.id)
     things = find(world, words)
     entries = tuple(
         WhyEntry(state=state(t, now_s), claims=tuple(claims(world, t, now_s))[:64], text=tell(world, t, now_s))
@@ -116,6 +120,15 @@ def tell(world: World, thing: Thing, now_s: float) -> str:
         f"{thing.type} {thing.id}: {place}, in {thing.room or 'no room'}, "
         f"{sure} % sure, last seen {age_s:.0f} s ago by {thing.last_source}"
     )
+
+
+def tell_flyer(world: World, robot: Robot, now_s: float) -> str:
+    """One sentence of what flies: where, how high, how full."""
+    x, y, z = robot.position_m
+    where = f"in the air, {z:.1f} m high," if robot.airborne else "on the floor"
+    power = f", battery at {robot.battery:.0%}" if robot.battery is not None else ", battery not told"
+    room, age_s = world.floor.room_at(x, y) or "no room", max(now_s - robot.stamp_s, 0.0)
+    return f"{robot.id}: {where} at ({x:.2f}, {y:.2f}) m, in {room}{power}, {robot.status}, heard {age_s:.0f} s ago"
 
 
 def claims(world: World, thing: Thing, now_s: float) -> list[Claim]:

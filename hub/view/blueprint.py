@@ -8,7 +8,11 @@ TIMELINE = "time"
 
 
 def blueprint(
-    cameras: Sequence[str], robots: Sequence[str], centre_m: tuple[float, float], span_m: float
+    cameras: Sequence[str],
+    robots: Sequence[str],
+    centre_m: tuple[float, float],
+    span_m: float,
+    flyers: Sequence[str] = (),
 ) -> rrb.Blueprint:
     """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right."""
     x, y = centre_m
@@ -26,6 +30,7 @@ def blueprint(
         rrb.TimeSeriesView(origin="metrics/seen", name="Seen of each room"),
         rrb.TimeSeriesView(origin="metrics/travelled_m", name="Metres walked"),
         rrb.TimeSeriesView(origin="metrics/counts", name="Objects, replans"),
+        *([rrb.TimeSeriesView(origin="flight", name="Battery and height")] if flyers else []),
         name="Metrics",
     )
     return rrb.Blueprint(

@@ -28,7 +28,8 @@ class ViewCore:
     def __init__(self, site: Site, rec: rr.RecordingStream) -> None:
         self._site = site
         self._rec = rec
-        self._drawing = Drawing(rec)
+        self._flyers = [robot.id for robot in site.robot if robot.kind == "drone"]
+        self._drawing = Drawing(rec, self._flyers)
         draw = self._drawing
         self._handlers: dict[type[Message], Callable[..., None]] = {
             CameraFrame: draw.frame,
@@ -45,7 +46,9 @@ class ViewCore:
         ys = [y for room in self._site.room for _, y in room.polygon_m]
         centre = ((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2)
         span = max(max(xs) - min(xs), max(ys) - min(ys))
-        layout = blueprint([c.id for c in self._site.camera], [r.id for r in self._site.robot], centre, span)
+        layout = blueprint(
+            [c.id for c in self._site.camera], [r.id for r in self._site.robot], centre, span, self._flyers
+        )
         self._rec.send_blueprint(layout, make_active=True)
         draw_house(self._rec, self._site)
         for topic in _TOPICS:

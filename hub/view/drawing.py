@@ -1,11 +1,13 @@
 """Draws messages: one method per topic, each at most as often as a person can use it, and only what is new."""
 
 from collections import deque
+from collections.abc import Collection
 from math import inf
 
 import rerun as rr
 
 from hub.view.blueprint import TIMELINE
+from hub.view.flying import draw_flight, draw_quadrotor, way_ahead
 from hub.view.house import draw_robot, place_camera, place_lens
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
@@ -37,8 +39,8 @@ _TRAIL_POINTS = 1000
 class Drawing:
     """Keeps what must be drawn together (all objects are one batch), and what was drawn last and when."""
 
-    def __init__(self, rec: rr.RecordingStream) -> None:
-        self._rec = rec
+    def __init__(self, rec: rr.RecordingStream, flyers: Collection[str] = ()) -> None:
+        self._rec, self._flyers = rec, frozenset(flyers)
         self._objects: dict[str, ObjectState] = {}
         self._trails: dict[str, deque[tuple[float, float, float]]] = {}
         self._doing: dict[str, str] = {}
@@ -79,10 +81,14 @@ class Drawing:
             return
         self.at(frame.stamp_s)
         path = f"world/cameras/{frame.camera}/picture"
-        if frame.depth_mm is not None:  # a camera that measures depth rides on a robot
+        if frame.depth_mm is not None or self._flies(frame.camera):  # a camera that measures depth rides on a robot
             self._place(frame, path)
         if self._news(path, frame.stamp_s, frame.jpeg):
             self._rec.log(path, rr.EncodedImage(contents=frame.jpeg, media_type="image/jpeg"))
+
+    def _flies(self, camera: str) -> bool:
+        """Whether a camera is one of a drone's: called like it, with a word of its own after that if it has several."""
+        return any(camera == flyer or camera.startswith(f"{flyer}-") for flyer in self._flyers)
 
     def _place(self, frame: CameraFrame, path: str) -> None:
         pose = (frame.position_enu_m, frame.yaw_rad, frame.tilt_down_rad)
@@ -118,24 +124,28 @@ class Drawing:
         self.at(report.stamp_s)
         if report.robot not in self._trails:
             self._trails[report.robot] = deque(maxlen=_TRAIL_POINTS)
-            draw_robot(self._rec, report.robot, self._robot_rgb(report.robot))
+            draw_body = draw_quadrotor if report.robot in self._flyers else draw_robot
+            draw_body(self._rec, report.robot, self._robot_rgb(report.robot))
         path, rgb = f"world/robots/{report.robot}", self._robot_rgb(report.robot)
         position_m, yaw_rad = report.position_enu_m, report.yaw_rad
         if self._news(path, report.stamp_s, (position_m, yaw_rad)):
             turn = rr.RotationAxisAngle(axis=[0, 0, 1], radians=yaw_rad)
             self._rec.log(path, rr.Transform3D(translation=position_m, rotation_axis_angle=turn))
-        x, y, _ = position_m
+        x, y, z = position_m
         if self._due(f"path/{report.robot}", report.stamp_s, _PATH_EVERY_S):
-            ahead = [(x, y, 0.05), *((px, py, 0.05) for px, py in report.path_m)] if report.path_m else []
+            ahead = way_ahead(report)
             if self._news(f"world/paths/{report.robot}", report.stamp_s, ahead):
                 self._rec.log(f"world/paths/{report.robot}", rr.LineStrips3D([ahead], colors=[rgb], radii=0.02))
-        self._trail(report.robot, (x, y, 0.04), report.stamp_s, rgb)
+        flies = report.robot in self._flyers
+        self._trail(report.robot, (x, y, z if flies else 0.04), report.stamp_s, rgb)
+        if flies and self._due(f"flight/{report.robot}", report.stamp_s, 1.0):
+            draw_flight(self._rec, report)
         if self._due(f"travelled/{report.robot}", report.stamp_s, 1.0):
             self._rec.log(f"metrics/travelled_m/{report.robot}", rr.Scalars(report.travelled_m))
 
     def _trail(self, robot: str, point: tuple[float, float, float], now_s: float, rgb: tuple[int, int, int]) -> None:
         trail = self._trails[robot]
-        if not trail or max(abs(point[0] - trail[-1][0]), abs(point[1] - trail[-1][1])) > 0.1:
+        if not trail or max(abs(a - b) for a, b in zip(point, trail[-1], strict=True)) > 0.1:
             trail.append(point)
         if self._due(f"trail/{robot}", now_s, 2.0) and self._news(f"world/trails/{robot}", now_s, trail[-1]):
             faded = (*rgb, 110)

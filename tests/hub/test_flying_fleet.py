@@ -64,6 +64,15 @@ def test_on_the_floor_and_low_over_it_a_drone_is_in_the_way(airborne: bool) -> N
     assert told["dog-1"].others_m == ((2.0, 2.0),)
 
 
+def test_who_takes_off_or_lands_is_not_told_to_make_way() -> None:
+    dog = walking("dog-1", (1.1, 2.0), (3.3, 2.0), (6.0, 2.0))
+    idle = orders(dog, flying("drone-1", (2.0, 2.0, 0.6)))
+    assert idle["drone-1"].step_aside_m is not None
+    rising = orders(dog, flying("drone-1", (2.0, 2.0, 0.2)).model_copy(update={"goal_id": "g-1"}))
+    assert (rising["drone-1"].go, rising["drone-1"].step_aside_m) == (True, None)
+    assert not rising["dog-1"].go
+
+
 def test_a_fleet_without_drones_is_told_nothing_of_the_air() -> None:
     told = orders(walking("dog-1", (1.0, 2.0), (3.0, 2.0)), walking("dog-2", (6.0, 2.0)))
     for order in told.values():

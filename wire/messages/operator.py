@@ -7,7 +7,7 @@ from pydantic import Field
 from wire.messages.goal import Goal
 from wire.messages.plan import Refusal
 from wire.messages.world import ObjectState
-from wire.model import Id, Message, Probability, Stamp, Text
+from wire.model import Id, Message, Probability, Stamp, Text, unset
 
 TaskStatus = Literal["planning", "running", "paused", "done", "failed", "refused", "cancelled"]
 
@@ -96,3 +96,5 @@ class WhyReply(Message):
     more: int = Field(default=0, ge=0)
     """So many others are meant too and were left out."""
     text: Text = ""
+    robot: Id | None = Field(default=None, exclude_if=unset)
+    """The robot that was asked about: `text` says how high it is and how full."""

@@ -2,13 +2,15 @@
 
 import pytest
 
+from hub import effects
 from hub.assignment import FORBIDDEN
 from hub.directions import Directions
 from hub.dispatch import Dispatch
+from hub.memory import read_world, write_world
 from hub.plan import PlanRun
 from hub.world import World
-from tests.hub.scenes import card, flat, report
-from wire.messages.command import RobotReport, TrafficOrder
+from tests.hub.scenes import batch, card, flat, report, seen
+from wire.messages.command import Result, RobotReport, TrafficOrder
 from wire.messages.plan import Plan, PlanNode, SkillCard
 from wire.model import Vec2, Vec3
 
@@ -127,3 +129,28 @@ def test_looks_from_above_are_rather_for_who_flies() -> None:
     world.fleet.take_card(pole.model_copy(update={"skills": (*pole.skills, look)}))
     node = PlanNode(id="n1", action="inspect_from_above", room="kitchen")
     assert cost(world, "drone-1", node)[0] < cost(world, "dog-1", node)[0]
+
+
+def test_what_was_flown_over_outlives_a_hub_and_not_a_task() -> None:
+    world = fleet(flying("drone-1", (2.0, 2.0, 1.5)))
+    for look in range(4):
+        world.observe(batch("cam-1", 0.5 * look, seen("Sofa", 2.0, 3.0, 0.4)))
+        world.delta(0.5 * look)
+    (sofa,) = world.things
+    result = Result(goal_id="g-1", robot="drone-1", stamp_s=2.0, status="done", code="ok")
+    for node in (
+        PlanNode(id="n1", action="inspect_from_above", object=sofa.id),
+        PlanNode(id="n2", action="construct_map", room="bath"),
+    ):
+        effects.apply(world, node, "drone-1", result, {})
+    again = World(flat())
+    read_world(again, write_world(world))
+    for believed in (world, again):
+        believed.delta(2.0)
+        state = believed.snapshot(2.0)
+        assert [o.seen_from_above for o in state.objects] == [True]
+        assert [a.id for a in state.areas if a.surveyed] == ["bath"]
+        believed.begin_task()
+        state = believed.snapshot(2.0)
+        assert not any(o.seen_from_above for o in state.objects)
+        assert not any(a.surveyed for a in state.areas)

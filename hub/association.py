@@ -74,8 +74,9 @@ def duplicates(things: Things, changed: Mapping[str, Thing]) -> list[tuple[Thing
         if thing.id in gone or thing.id not in things.by_id:
             continue
         x, y, id = thing.x, thing.y, thing.id
+        apart = thing.distinct if thing.shape.kind == "pickup" else ()
         for other in things.near(x, y, _MERGE_M):
-            if other is thing or (other.id <= id and other.id in changed):
+            if other.id in apart or other is thing or (other.id <= id and other.id in changed):
                 continue
             apart_m2 = (x - other.x) ** 2 + (y - other.y) ** 2
             if apart_m2 > _MERGE_M2 or other.id in gone or not _one(thing, other, apart_m2):

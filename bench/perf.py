@@ -148,6 +148,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true", help="print the JSON document instead of lines")
     parser.add_argument("--only", default="", help="only the measurements whose module contains this")
     arguments = parser.parse_args()
+    OUT.mkdir(parents=True, exist_ok=True)  # some sections draw there
     report: Json = {}
     for section in SECTIONS:
         if arguments.only not in section.module:
@@ -159,7 +160,6 @@ def main() -> None:
         report[section.module] = {"about": section.about, "claims": rows, "measured": document}
         if not arguments.json:
             print("\n".join(map(_line, rows)), flush=True)
-    OUT.mkdir(parents=True, exist_ok=True)
     (OUT / "perf.json").write_text(json.dumps(report, indent=2, sort_keys=True) + "\n")
     draw_rows([row for entry in report.values() for row in entry["claims"]], OUT / "perf.png")
     print(

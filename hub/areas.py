@@ -7,6 +7,7 @@ from math import ceil, floor
 from wire.messages.observation import ObservationBatch
 from wire.messages.world import AreaState
 from wire.model import Vec2
+from wire.outline import spans
 from wire.site import Room
 
 CELL_M = 0.25
@@ -138,15 +139,11 @@ class Areas:
 
 def paint(polygon_m: tuple[Vec2, ...], x_m: float, y_m: float, columns: int, rows: int) -> list[int]:
     """Rows of bits: the cells whose middle lies in the polygon (scan lines, even-odd rule)."""
-    edges = list(zip(polygon_m, (*polygon_m[1:], polygon_m[0]), strict=True))
     result = []
     for row in range(rows):
         y = y_m + (row + 0.5) * CELL_M
-        crossings = sorted(
-            (x2 - x1) * (y - y1) / (y2 - y1) + x1 for (x1, y1), (x2, y2) in edges if (y1 > y) != (y2 > y)
-        )
         bits = 0
-        for left, right in zip(crossings[::2], crossings[1::2], strict=True):
+        for left, right in spans(polygon_m, y):
             first = min(max(ceil((left - x_m) / CELL_M - 0.5), 0), columns)
             last = min(max(ceil((right - x_m) / CELL_M - 0.5), 0), columns)
             if last > first:

@@ -55,6 +55,13 @@ def open_bullet() -> Any:
     return SimpleNamespace(getQuaternionFromEuler=pybullet.getQuaternionFromEuler, client=client, **calls, **constants)
 
 
+def add_floor(bullet: Any, group: int, mask: int) -> int:
+    """The plane at height 0; the body's number."""
+    body: int = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1)
+    bullet.setCollisionFilterGroupMask(body, -1, group, mask)
+    return body
+
+
 def add_static_boxes(bullet: Any, boxes: Sequence[Box], group: int, mask: int) -> list[int]:
     """Immovable boxes, near ones together in one body."""
     ordered = sorted(boxes, key=lambda b: (b.centre_m[0] // 3.0, b.centre_m[1] // 3.0, b.centre_m))

@@ -7,7 +7,8 @@ from sim.boxes import body_box
 from sim.cameras import GIMBAL_FOCAL_PX, GIMBAL_HEIGHT_PX
 from sim.flight.quadrotor import Quadrotor
 from sim.scene import Scene, Vec3
-from sim.truth import inside, room_of
+from sim.truth import room_of
+from wire.outline import inside
 
 LOWEST_M = 0.8
 """Lower than this nobody looks down on anything."""
@@ -73,4 +74,4 @@ def _cells(polygon_m: tuple[tuple[float, float], ...]) -> list[tuple[float, floa
     east, north = (max(p[k] for p in polygon_m) for k in (0, 1))
     columns, rows = ceil((east - west) / CELL_M), ceil((north - south) / CELL_M)
     middles = [(west + (i + 0.5) * CELL_M, south + (j + 0.5) * CELL_M) for i in range(columns) for j in range(rows)]
-    return [middle for middle in middles if inside(polygon_m, middle)]
+    return [middle for middle in middles if inside(middle, polygon_m)]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import atan2
 
 from sim.boxes import Box, body_box, structure_boxes
-from sim.bullet import GRAVITY_MPS2, STEP_S, add_static_boxes, open_bullet
+from sim.bullet import GRAVITY_MPS2, STEP_S, add_floor, add_static_boxes, open_bullet
 from sim.flight.quadrotor import Quadrotor
 from sim.legs import legged_rover
 from sim.rover import Rover, one_body_rover
@@ -84,10 +84,7 @@ class Physics:
         bullet = self.bullet
         self.structure = structure_boxes(self.scene)
         """Walls and lintels."""
-        self._floor = bullet.createMultiBody(
-            0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1
-        )
-        bullet.setCollisionFilterGroupMask(self._floor, -1, FLOOR, EVERYTHING & ~(RAY | STATIC))
+        self._floor = add_floor(bullet, FLOOR, EVERYTHING & ~(RAY | STATIC))
         furniture = [body_box(b) for _, b in sorted(self.scene.bodies.items()) if is_furniture(b) and not b.gone]
         self.standing = self.structure + furniture
         """All that never moves."""

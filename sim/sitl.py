@@ -13,7 +13,7 @@ from typing import Any
 
 from sim.autopilot.firmware import Firmware
 from sim.autopilot.personality import PERSONALITIES
-from sim.bullet import STEP_S, open_bullet
+from sim.bullet import STEP_S, add_floor, open_bullet
 from sim.flight.quadrotor import Quadrotor
 from sim.generator.home import make_home
 from sim.mavlink.endpoint import Aboard, Endpoint
@@ -37,9 +37,7 @@ class Flight:
         starts: Sequence[tuple[tuple[float, float], float]]
         if options.house is None:
             self._bullet: Any = open_bullet()
-            plane = self._bullet.createCollisionShape(self._bullet.GEOM_PLANE)
-            floor = self._bullet.createMultiBody(0.0, plane, useMaximalCoordinates=1)
-            self._bullet.setCollisionFilterGroupMask(floor, -1, FLOOR, EVERYTHING)
+            add_floor(self._bullet, FLOOR, EVERYTHING)
             yaw_rad = heading_to_yaw_rad(radians(options.home[3]))
             starts = [((APART_M * k, 0.0), yaw_rad) for k in range(options.vehicles)]
             ceiling_m = inf

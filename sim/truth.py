@@ -10,23 +10,14 @@ from sim.rover import Motion
 from sim.scene import Body, Room, Scene, Vec2, Vec3
 from wire.frames import yaw_deg
 from wire.messages.world import AreaState, ObjectState, PropertyState, RobotState, WorldState
+from wire.outline import inside
 
 SOURCE = "sim"
 
 
-def inside(polygon_m: tuple[Vec2, ...], point_m: Vec2) -> bool:
-    """Whether a floor point lies in a polygon (crossing number)."""
-    x, y = point_m
-    odd = False
-    for (ax, ay), (bx, by) in zip(polygon_m, (*polygon_m[1:], polygon_m[0]), strict=True):
-        if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
-            odd = not odd
-    return odd
-
-
 def room_of(scene: Scene, point_m: Vec2) -> str | None:
     """The room that a floor point is in; None in a doorway or outside."""
-    return next((room.id for room in scene.rooms if inside(room.polygon_m, point_m)), None)
+    return next((room.id for room in scene.rooms if inside(point_m, room.polygon_m)), None)
 
 
 @dataclass(frozen=True)

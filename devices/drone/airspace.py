@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import ceil, floor, hypot, inf, sqrt
 
 from wire.model import Vec2, Vec3
+from wire.outline import spans
 from wire.site import Door, Site, Wall
 
 CELL_M = 0.1
@@ -114,14 +115,7 @@ class Airspace:
         low, high = (self.cell((0.0, edge(p[1] for p in polygon_m)))[1] for edge in (min, max))
         for row in range(low, high + 1):
             y = self.centre_m((0, row))[1]
-            crossings = []
-            x1, y1 = polygon_m[-1]
-            for x2, y2 in polygon_m:
-                if (y1 > y) != (y2 > y):
-                    crossings.append(x1 + (y - y1) / (y2 - y1) * (x2 - x1))
-                x1, y1 = x2, y2
-            crossings.sort()
-            for a, b in zip(crossings[::2], crossings[1::2], strict=True):
+            for a, b in spans(polygon_m, y):
                 for column in range(self.cell((a, y))[0], self.cell((b, y))[0] + 1):
                     if a <= self.centre_m((column, row))[0] <= b:
                         self._top_m[column, row] = height_m - UNDER_CEILING_M

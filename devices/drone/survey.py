@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import ceil, cos, sin
 
 from wire.model import Vec2
+from wire.outline import spans
 
 
 def sweep(polygon_m: Sequence[Vec2], spacing_m: float, margin_m: float) -> list[Vec2]:
@@ -43,12 +44,4 @@ def _spread(low: float, high: float, spacing_m: float) -> list[float]:
 
 def _pieces(polygon_m: Sequence[Vec2], y: float, margin_m: float) -> list[tuple[float, float]]:
     """Where a level line is inside a polygon and `margin_m` from where it leaves it."""
-    crossings = []
-    x1, y1 = polygon_m[-1]
-    for x2, y2 in polygon_m:
-        if (y1 > y) != (y2 > y):
-            crossings.append(x1 + (y - y1) / (y2 - y1) * (x2 - x1))
-        x1, y1 = x2, y2
-    crossings.sort()
-    pairs = zip(crossings[::2], crossings[1::2], strict=True)
-    return [(a + margin_m, b - margin_m) for a, b in pairs if b - a >= 2.0 * margin_m]
+    return [(a + margin_m, b - margin_m) for a, b in spans(polygon_m, y) if b - a >= 2.0 * margin_m]

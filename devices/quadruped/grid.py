@@ -10,6 +10,7 @@ from math import ceil, floor, hypot
 from typing import TypeAlias
 
 from wire.model import Vec2
+from wire.outline import spans
 from wire.site import Site
 
 CELL_M = 0.1
@@ -81,12 +82,8 @@ class CellGrid:
     def inside(self, polygon_m: Sequence[Vec2]) -> Mask:
         """Cells whose centre lies in the polygon."""
         result = bytearray(self.size)
-        sides = list(zip(polygon_m, [*polygon_m[1:], polygon_m[0]], strict=True))
         for row, y in enumerate(self._y):
-            crossings = sorted(
-                x0 + (y - y0) / (y1 - y0) * (x1 - x0) for (x0, y0), (x1, y1) in sides if min(y0, y1) <= y < max(y0, y1)
-            )
-            for west, east in zip(crossings[::2], crossings[1::2], strict=True):
+            for west, east in spans(polygon_m, y):
                 for column, x in enumerate(self._x, row * self.columns):
                     if west <= x < east:
                         result[column] = 1

@@ -6,6 +6,7 @@ clockwise (the order of the two firmware families that the wire speaks for). Bod
 
 from math import exp, sqrt
 
+from sim.bullet import GRAVITY_MPS2
 from sim.flight.state import Vec3
 
 MASS_KG = 1.3
@@ -26,7 +27,6 @@ AVIONICS_W = 6.0
 DRAG_NPMPS, DRAG_NPMPS2 = 0.18, 0.05
 IDLE = 0.12
 """Rotor speed of an armed vehicle that wants no thrust."""
-GRAVITY_MPS2 = 9.81
 HOVER_THRUST = MASS_KG * GRAVITY_MPS2 / (4.0 * MAX_THRUST_N)
 _MOST_GROUND_EFFECT = 1.3
 

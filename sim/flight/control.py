@@ -2,11 +2,11 @@
 
 from math import hypot, pi, sqrt, tan
 
+from sim.bullet import GRAVITY_MPS2
 from sim.flight.airframe import (
     ARM_M,
     DRAG_NPMPS,
     DRAG_NPMPS2,
-    GRAVITY_MPS2,
     HOVER_THRUST,
     INERTIA_KGM2,
     MASS_KG,
@@ -204,6 +204,3 @@ def _bounded(value: float, most: float) -> float:
 def _learn(values: list[float], at: int, change: float, most: float) -> None:
     value = values[at] + change
     values[at] = value if -most < value < most else (most if value > 0.0 else -most)
-
-
-__all__ = ["HOVER_THRUST", "Control"]

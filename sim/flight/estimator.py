@@ -2,18 +2,19 @@
 
 Attitude is integrated from the gyroscope and pulled towards gravity, compass and what the velocity fixes say of the
 tilt; velocity and position are integrated from the accelerometer and pulled towards fixes, poses from outside, or for
-the height alone the barometer. Gains are fixed: those at which a Kalman filter of these noises settles, rounded.
+the height alone the barometer. Gains are fixed and were set by hand for the noises of `sim.flight.sensing`; what they
+are worth is measured by `sim.flight.bench`. NED and FRD, metres, seconds, radians.
 """
 
 from math import cos, sin, sqrt
 
+from sim.bullet import GRAVITY_MPS2
 from sim.flight.attitude import euler, heading, multiply, normalised, wrapped
 from sim.flight.sensing import magnetic_heading
 from sim.flight.state import Estimate, Quaternion, Vec3
 
 FRESH_S = 1.0
 """A position without fix or pose for longer is not to be relied on."""
-_GRAVITY = 9.81
 _LEVEL_PER_S, _GYRO_BIAS_PER_S = 0.25, 0.02
 _COMPASS, _OUTSIDE_HEADING = 0.02, 0.1
 _TILT_PER_MPS = 0.01
@@ -83,7 +84,7 @@ class Estimator:
         drift = self._bias_a
         an = ax + w * tx + y * tz - z * ty + drift[0]
         ae = ay + w * ty + z * tx - x * tz + drift[1]
-        ad = az + w * tz + x * ty - y * tx + drift[2] + _GRAVITY
+        ad = az + w * tz + x * ty - y * tx + drift[2] + GRAVITY_MPS2
         self.pn += step_s * (self.vn + 0.5 * step_s * an)
         self.pe += step_s * (self.ve + 0.5 * step_s * ae)
         self.pd += step_s * (self.vd + 0.5 * step_s * ad)

@@ -4,12 +4,11 @@ from math import atan2, cos, pi, sqrt
 from typing import Any
 
 from sim.boxes import Box
-from sim.bullet import STEP_S
+from sim.bullet import GRAVITY_MPS2, STEP_S
 from sim.flight.airframe import (
     AVIONICS_W,
     DRAG_NPMPS,
     DRAG_NPMPS2,
-    GRAVITY_MPS2,
     HALF_M,
     HOVER_THRUST,
     INERTIA_KGM2,
@@ -62,7 +61,6 @@ class Quadrotor:
         self._dozes = False
         """It lies still with its rotors off: it looks and thinks at the slower rate only."""
         self._before_mps: Vec3 = (0.0, 0.0, 0.0)
-        self.now_s = 0.0
 
     # What an autopilot sees
 
@@ -121,14 +119,10 @@ class Quadrotor:
     def set_battery(self, remaining: float | None, drain_s: float | None, voltage_v: float | None) -> None:
         self._power.provoke(remaining, drain_s, voltage_v)
 
-    def reset_position(self, position_ned_m: Vec3) -> None:
-        self._estimator.restart(position_ned_m)
-
     # Time
 
     def before_step(self, now_s: float) -> None:
         """Sense, estimate, decide, and push the body for the coming step of physics."""
-        self.now_s = now_s
         if self._dozes and self._steps % GUIDE_EVERY:
             self._steps += 1
             return
@@ -208,7 +202,7 @@ class Quadrotor:
         if not self._armed:
             thrust = 0.0
         elif isinstance(setpoint, Trajectory):
-            if self._touchdown.landed and not _wants_up(setpoint, estimator):
+            if self._stays_down(setpoint):
                 control.press_down(heading_rad)
             else:
                 control.guide(setpoint, estimator, heading_rad, GUIDE_EVERY * STEP_S)
@@ -226,14 +220,16 @@ class Quadrotor:
     def _turn_rotors(self) -> None:
         if not self._armed or self._power.state.remaining <= 0.0:
             self._rotors.step(None, idle=False)
-        elif isinstance(self._setpoint, Off) or (
-            self._touchdown.landed
-            and isinstance(self._setpoint, Trajectory)
-            and not _wants_up(self._setpoint, self._estimator)
-        ):
+        elif self._stays_down(self._setpoint):
             self._rotors.step(None, idle=True)
         else:
             self._rotors.step(self._control.steer(self._estimator, STEP_S), idle=True)
+
+    def _stays_down(self, setpoint: Setpoint) -> bool:
+        """Whether it stands, and nothing asks it to leave the floor: its rotors idle."""
+        if isinstance(setpoint, Trajectory):
+            return self._touchdown.landed and not _wants_up(setpoint, self._estimator)
+        return isinstance(setpoint, Off)
 
     # For the simulator alone
 

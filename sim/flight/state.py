@@ -39,7 +39,7 @@ class Trajectory:
 
 @dataclass(frozen=True, slots=True)
 class AttitudeTarget:
-    """Hold an attitude, or with `attitude` None turn at the rates. Thrust 0 to 1, hover at about `Report.hover_thrust`."""
+    """Hold an attitude, or with `attitude` None turn at the rates. Thrust 0 to 1, hover at about `Vehicle.hover_thrust`."""
 
     attitude: Quaternion | None
     rates_frd_radps: OptionalVec3
@@ -142,8 +142,4 @@ class Vehicle(Protocol):
 
     def set_battery(self, remaining: float | None, drain_s: float | None, voltage_v: float | None) -> None:
         """Provoke: set the charge (0 to 1), the seconds from full to empty, or pin the voltage; None leaves as it is."""
-        ...
-
-    def reset_position(self, position_ned_m: Vec3) -> None:
-        """Tell the estimator where it stands."""
         ...

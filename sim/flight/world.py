@@ -3,7 +3,7 @@
 from math import pi
 from typing import Any
 
-from sim.bullet import STEP_S, open_bullet
+from sim.bullet import STEP_S, add_floor, open_bullet
 from sim.flight.quadrotor import Quadrotor
 
 _FLOOR, _FIRST = 4, 16
@@ -17,8 +17,7 @@ class BareFloor:
     def __init__(self, count: int = 1, seed: int = 0, fixes: bool = True, altitude_m: float = 0.0) -> None:
         self.bullet: Any = open_bullet()
         bullet = self.bullet
-        floor = bullet.createMultiBody(0.0, bullet.createCollisionShape(bullet.GEOM_PLANE), useMaximalCoordinates=1)
-        bullet.setCollisionFilterGroupMask(floor, -1, _FLOOR, _EVERYTHING)
+        add_floor(bullet, _FLOOR, _EVERYTHING)
         self.vehicles = [
             Quadrotor(
                 bullet,

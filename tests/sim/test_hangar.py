@@ -9,6 +9,7 @@ from sim.aerials import aerial_of, drone_starts, simulated
 from sim.hangar import Hangar
 from sim.physics import Physics
 from tests.sim.small_home import make_small_home
+from tests.walk.drone_mesh import free_port
 from wire.bus import CannotRun
 from wire.site import parse_site
 
@@ -28,13 +29,6 @@ def site_with(link: str, **sim: object):
         {"id": "drone-1", "role": "robot", "module": "devices.drone"},
     ]
     return parse_site({"name": "t", "room": [room], "robot": [robot], "process": rows, "sim": {"seed": 1, **sim}}, "t")
-
-
-def free_udp_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-    return port
 
 
 class Flown:
@@ -62,7 +56,7 @@ class Flown:
 
 @pytest.mark.parametrize("firmware", ["ardupilot", "px4"])
 def test_a_client_at_the_drones_address_flies_it(firmware) -> None:
-    port = free_udp_port()
+    port = free_port(socket.SOCK_DGRAM)
     flown = Flown(f"udpin://127.0.0.1:{port}", firmware=firmware)
     client = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="ardupilotmega")
     try:
@@ -84,7 +78,7 @@ def test_a_client_at_the_drones_address_flies_it(firmware) -> None:
 
 
 def test_a_ground_station_may_look_on() -> None:
-    port, station = free_udp_port(), free_udp_port()
+    port, station = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_DGRAM)
     flown = Flown(f"udpin://127.0.0.1:{port}", mavlink_out=[f"127.0.0.1:{station}"])
     watcher = mavutil.mavlink_connection(f"udpin:127.0.0.1:{station}", dialect="ardupilotmega")
     try:

@@ -1,7 +1,6 @@
 """A mesh of a router, a simulated autopilot and a drone's process; the test is the hub."""
 
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -9,6 +8,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from tests.walk.mesh import end_all
 from wire.bus import Received, Reply
 from wire.messages.command import CancelRequest, Command, CommandAck, Result, RobotReport, TrafficOrder
 from wire.messages.observation import EventLog
@@ -106,16 +106,7 @@ class DroneMesh:
 
     def __exit__(self, *_: object) -> None:
         self._hub.__exit__(None, None, None)
-        for process in self.processes.values():
-            if process.poll() is None:
-                process.send_signal(signal.SIGCONT)
-                process.terminate()
-        for process in self.processes.values():
-            try:
-                process.wait(10)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+        end_all(self.processes.values(), patience_s=10)
 
     def start_autopilot(self) -> None:
         link = f"127.0.0.1:{self._link_port}"

@@ -10,7 +10,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from tests.wire.cores import Clockwork, Diary, Gossip, Walker
@@ -69,6 +69,21 @@ def build(site: Site, process: str, diary: Path) -> Core:
     return Written(core_for(ROLES[process]), diary)
 
 
+def end_all(processes: Iterable["subprocess.Popen[bytes]"], patience_s: float) -> None:
+    """Wake, ask, and then kill: none is left. Frozen ones too."""
+    running = list(processes)
+    for process in running:
+        if process.poll() is None:
+            process.send_signal(signal.SIGCONT)
+            process.terminate()
+    for process in running:
+        try:
+            process.wait(patience_s)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
 class WalkMesh:
     """Starts and ends the processes of one site in a folder."""
 
@@ -91,16 +106,7 @@ class WalkMesh:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for process in self.processes.values():
-            if process.poll() is None:
-                process.send_signal(signal.SIGCONT)
-                process.terminate()
-        for process in self.processes.values():
-            try:
-                process.wait(5)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+        end_all(self.processes.values(), patience_s=5)
 
     def run(self, module: str, id: str, *args: str) -> "subprocess.Popen[bytes]":
         with (self.folder / f"{id}.log").open("ab") as log:

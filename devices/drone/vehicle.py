@@ -9,7 +9,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
 from math import isfinite
 from typing import Any
 
-from mavsdk.asyncio import Autopilot, MavsdkError, System
+from mavsdk.asyncio import MavsdkError, System
 from mavsdk.asyncio import Vehicle as VehicleType
 from mavsdk.asyncio.plugins.action import ActionAsync
 from mavsdk.asyncio.plugins.camera import CameraAsync
@@ -18,6 +18,7 @@ from mavsdk.asyncio.plugins.offboard import OffboardAsync, PositionNedYaw, Veloc
 from mavsdk.asyncio.plugins.telemetry import StatusTextType, TelemetryAsync
 
 from devices.drone.frame import LocalFrame
+from devices.drone.identity import identify
 from devices.drone.pilot import (
     Arm,
     Disarm,
@@ -50,7 +51,6 @@ CUSTOM_MODE, GUIDED = 1.0, 4.0
 ACKS = {0: "", 1: "rejected for now", 2: "denied", 3: "unsupported", 4: "failed", 6: "cancelled"}
 """MAV_RESULT."""
 _LANDED: tuple[Landed, ...] = ("unknown", "on_ground", "in_air", "taking_off", "landing")
-_FIRMWARE: dict[int, Firmware] = {Autopilot.PX4: "px4", Autopilot.ARDUPILOT: "ardupilot"}
 
 
 class Vehicle:
@@ -76,8 +76,7 @@ class Vehicle:
 
     async def prepare(self, height_m: float) -> Found:
         """Who it is, and the settings without which it would behave as outdoors."""
-        self._firmware = _FIRMWARE.get(int(await self._system.autopilot_type()), "unknown")
-        kind = await self._system.vehicle_type()
+        self._firmware, kind = await identify(self._system)
         name = kind.name.lower().replace("_", " ")
         fault = "" if kind == VehicleType.MULTICOPTER else f"the vehicle is a {name}, and only a multicopter hovers"
         for name, setting in (

@@ -24,10 +24,11 @@ class Identified(Protocol):
 
 
 async def identify(system: Identified) -> tuple[Firmware, VehicleType]:
-    """MAVSDK shows a system a moment before it has read the heartbeat that says what it is."""
+    """MAVSDK shows a system before it has read the heartbeat that says what it is, and then reads it bit by bit."""
     deadline_s = asyncio.get_running_loop().time() + PATIENCE_S
-    while (autopilot := await system.autopilot_type()) == Autopilot.UNKNOWN:
-        if asyncio.get_running_loop().time() > deadline_s:
-            break
+    while True:
+        autopilot, kind = await system.autopilot_type(), await system.vehicle_type()
+        known = autopilot != Autopilot.UNKNOWN and kind not in (VehicleType.UNKNOWN, VehicleType.GENERIC)
+        if known or asyncio.get_running_loop().time() > deadline_s:
+            return _FIRMWARE.get(int(autopilot), "unknown"), kind
         await asyncio.sleep(LOOK_S)
-    return _FIRMWARE.get(int(autopilot), "unknown"), await system.vehicle_type()

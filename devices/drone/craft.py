@@ -156,7 +156,7 @@ class Craft:
         if not isinstance(order, Shoot):
             self.moving, self.steered = not isinstance(order, Hover), isinstance(order, Steer)
         if isinstance(order, Steer):
-            self._other_mode_s = self.now_s
+            self._other_mode_s, self._landing = self.now_s, None
         return ask
 
     def fly(self, setpoint: Setpoint) -> None:

@@ -4,7 +4,7 @@ They return None when all went well, and how the skill ends when not.
 """
 
 from collections.abc import Callable, Generator
-from math import dist, hypot
+from math import dist, hypot, inf
 
 from devices.drone.course import DEFAULT, Course, Limits, along_legs
 from devices.drone.craft import Craft
@@ -58,6 +58,10 @@ def unready(craft: Craft) -> Outcome | None:
         return failed("precondition", craft.found.fault)
     if not telemetry.located or telemetry.position_enu_m is None:
         return failed("precondition", f"the autopilot has no position estimate{craft.why()}")
+    if craft.space.top_m(craft.position_m) == -inf:
+        x, y, _ = craft.position_m
+        hint = "origin_enu_m and north_deg of the site file say how the autopilot's frame lies in the building"
+        return failed("precondition", f"it is at ({x:.1f}, {y:.1f}), outside the rooms of the site; {hint}")
     if telemetry.battery is not None and telemetry.battery < LEAST_BATTERY:
         least = f"{LEAST_BATTERY:.0%} is needed to begin"
         return failed("precondition", f"the battery is at {telemetry.battery:.0%}, {least}")

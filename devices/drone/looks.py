@@ -1,6 +1,7 @@
 """Skills that look: at a thing or a place from beside or above, all around it, over a whole room."""
 
 from collections.abc import Generator, Sequence
+from itertools import islice
 from math import ceil, dist, pi
 
 from pydantic import Field, model_validator
@@ -126,15 +127,12 @@ def construct_map(craft: Craft, command: Command) -> Skilled:
     """Survey a room or a rectangle: fly over it in lanes at one height and take a picture at every station."""
     params = Survey.model_validate(_given(command))
     height_m = params.height_m or craft.row.flight_height_m
-    stations = [
-        point
-        for x, y in sweep(_ground(craft, params), params.spacing_m, WALL_M)[: MOST_STATIONS + 1]
-        if not craft.space.fault(point := (x, y, height_m))
-    ]
+    planned = list(islice(sweep(_ground(craft, params), params.spacing_m, WALL_M), MOST_STATIONS + 1))
+    if len(planned) > MOST_STATIONS:
+        return failed("precondition", f"more than {MOST_STATIONS} pictures; give a wider spacing_m")
+    stations = [point for x, y in planned if not craft.space.fault(point := (x, y, height_m))]
     if not stations:
         return failed("unreachable", f"there is nowhere in it to fly at {height_m:.1f} m")
-    if len(stations) > MOST_STATIONS:
-        return failed("precondition", f"more than {MOST_STATIONS} pictures; give a wider spacing_m")
     taken, why = 0, ""
     for number, station in enumerate(stations):
         craft.note = f"surveying: station {number + 1} of {len(stations)}"

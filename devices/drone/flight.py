@@ -31,6 +31,8 @@ FACED_RAD = 0.08
 TURN_S = 10.0
 SIGHT_MPS = 0.2
 """Slower than this it is not turned into its way."""
+RIGHT_OVER_M = 0.2
+"""Nearer than this beside a point, its bearing turns with every drift."""
 LANDED_S, LANDING_REFUSED_S = 4.0, 10.0
 SPOT_SLACK_M = 0.3
 """As near as this to a place to land at is there."""
@@ -136,7 +138,7 @@ def keep(position_m: Vec3, velocity_mps: Vec3) -> float | None:
 def towards(point_m: Vec2) -> Facing:
     """Facing a point."""
     return lambda position_m, velocity_mps: (
-        bearing_rad(position_m[:2], point_m) if dist(position_m[:2], point_m) > 0.2 else None
+        bearing_rad(position_m[:2], point_m) if dist(position_m[:2], point_m) > RIGHT_OVER_M else None
     )
 
 
@@ -147,9 +149,11 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     craft.action_steps += 1
     while not (craft.steered and follower.arrived(craft.position_m)):
         if not craft.steered:
-            trouble = yield from _take_up(craft, follower, yaw_rad)
+            follower.stand(craft.now_s)
+            trouble = yield from _take_up(craft, follower.stop_m, yaw_rad)
             if trouble is not None:
                 return trouble
+            follower.stand(craft.now_s)
             yaw_rad, stepped_s = craft.yaw_rad, craft.now_s
         position_m, velocity_mps = follower.step(craft.now_s, craft.position_m, craft.may_move)
         wanted_rad = facing(position_m, velocity_mps)
@@ -171,17 +175,21 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     return None
 
 
-def _take_up(craft: Craft, follower: Follower, yaw_rad: float) -> Trouble:
-    """Begin to steer, from where it stopped if it is there."""
-    follower.stand(craft.now_s)
-    if dist(craft.position_m, follower.stop_m) > OFF_COURSE_M:
-        trouble = yield from go_to(craft, follower.stop_m)
+def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
+    """Begin to steer there; what was led away from it meanwhile flies back by a way that is clear."""
+    if dist(craft.position_m, where_m) > OFF_COURSE_M:
+        trouble = yield from go_to(craft, where_m)
         if trouble is not None:
             return trouble
-    if reason := (yield from obey(craft, Steer(Setpoint(follower.stop_m, STILL, yaw_rad)))):
+    if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, yaw_rad)))):
         return failed("driver", f"the autopilot takes no setpoints: {reason}")
-    follower.stand(craft.now_s)
     return None
+
+
+def face(craft: Craft, point_m: Vec2) -> Trouble:
+    """Turn to a point, unless it is right above or below."""
+    wanted_rad = towards(point_m)(craft.position_m, STILL)
+    return (yield from turn(craft, wanted_rad)) if wanted_rad is not None else None
 
 
 def turn(craft: Craft, wanted_rad: float) -> Trouble:
@@ -190,8 +198,9 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
     yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s
     while abs(wrap_rad(wanted_rad - craft.yaw_rad)) > FACED_RAD:
         if not craft.steered:
-            if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, craft.yaw_rad)))):
-                return failed("driver", f"the autopilot takes no setpoints: {reason}")
+            trouble = yield from _take_up(craft, where_m, craft.yaw_rad)
+            if trouble is not None:
+                return trouble
             yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s
         yaw_rad = turned(yaw_rad, wanted_rad, min(craft.now_s - stepped_s, LONGEST_STEP_S))
         stepped_s = craft.now_s

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from devices.drone.course import Course, Limits
 from devices.drone.craft import Craft
-from devices.drone.flight import failed, fly, go_to, keep, obey, towards, turn
+from devices.drone.flight import face, failed, fly, go_to, keep, obey, towards
 from devices.drone.moves import LEAST_M, MOST_M, Place, Skilled
 from devices.drone.pilot import Shoot
 from devices.drone.places import half_size_m, near_target, place_of, room_of
@@ -116,10 +116,9 @@ def orbit(craft: Craft, command: Command) -> Skilled:
         return failed("blocked", f"no room to fly around {name} at {params.radius_m:.1f} m: {fault}")
     craft.note = f"flying to {name}"
     trouble = yield from go_to(craft, course.points_m[0])
-    facing = towards(middle_m)
-    trouble = trouble or (yield from turn(craft, bearing_rad(craft.position_m[:2], middle_m)))
+    trouble = trouble or (yield from face(craft, middle_m))
     craft.note = f"flying around {name}"
-    trouble = trouble or (yield from fly(craft, course, facing))
+    trouble = trouble or (yield from fly(craft, course, towards(middle_m)))
     return trouble or Outcome("done", "ok", f"flew around {name}", craft.position_m)
 
 
@@ -191,8 +190,7 @@ def _see(craft: Craft, middle_m: Vec2, name: str, away_m: float, height_m: float
     if goal_m is None:
         return failed("unreachable", f"{name}: there is nowhere to see it from at {height_m:.1f} m")
     trouble = yield from go_to(craft, goal_m)
-    if trouble is None and dist(craft.position_m[:2], middle_m) > 0.3:
-        trouble = yield from turn(craft, bearing_rad(craft.position_m[:2], middle_m))
+    trouble = trouble or (yield from face(craft, middle_m))
     if trouble is not None:
         return Outcome(trouble.status, trouble.code, f"{name}: {trouble.reason}")
     taken, said = yield from _shoot(craft)

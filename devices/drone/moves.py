@@ -7,7 +7,7 @@ from pydantic import Field, field_validator, model_validator
 
 from devices.drone.course import Course, Limits, along_legs
 from devices.drone.craft import Craft
-from devices.drone.flight import ahead, come_down, failed, fly, get_up, go_to, towards, turn
+from devices.drone.flight import ahead, come_down, face, failed, fly, get_up, go_to, turn
 from devices.drone.places import near_target, place_of
 from devices.drone.route import find_way
 from devices.drone.spline import through
@@ -114,7 +114,7 @@ def goto(craft: Craft, command: Command) -> Skilled:
         return failed("unreachable", f"{name}: there is nowhere to hover near it at {height_m:.1f} m")
     trouble = yield from go_to(craft, goal_m)
     if trouble is None and command.target is not None:
-        trouble = yield from turn(craft, towards(middle_m)(craft.position_m, (0.0, 0.0, 0.0)) or craft.yaw_rad)
+        trouble = yield from face(craft, middle_m)
     if trouble is None and "yaw_deg" in command.params:
         trouble = yield from turn(craft, radians(float(command.params["yaw_deg"])))
     if trouble is not None:
@@ -132,9 +132,9 @@ def place_to_be(craft: Craft, command: Command, height_m: float) -> Vec3 | None:
 
 def follow_path(craft: Craft, command: Command) -> Skilled:
     """Fly a smooth curve through points, facing where it flies; each point is "east north height" in metres."""
-    points = way_points(str(command.params["way_m"]))
-    limits = Limits(speed_mps=float(command.params.get("speed_mps", 0.8)))
-    course = Course(through(points), limits)
+    params = Way.model_validate(command.params)
+    points = way_points(params.way_m)
+    course = Course(through(points), Limits(speed_mps=params.speed_mps))
     if fault := craft.space.first_fault(course.points_m):
         return failed("blocked", f"the curve through these points is blocked: {fault}")
     craft.note = "flying to the beginning of the path"

@@ -1,3 +1,5 @@
+"""A system is known by its heartbeat, however late that is read."""
+
 import asyncio
 
 import pytest

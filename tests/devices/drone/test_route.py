@@ -8,19 +8,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from devices.drone import route
-from devices.drone.airspace import NEEDED_M, Airspace, Obstacle, to_segment_m
+from devices.drone.airspace import NEEDED_M, Airspace, Obstacle
 from devices.drone.course import Course, along_legs
 from devices.drone.obstacles import Obstacles
 from devices.drone.route import nearest_open
-from tests.devices.drone.flat import WALLS, flat
+from tests.devices.drone.flat import flat
+from tests.devices.rooms import WALLS
 from wire.messages.world import ObjectState, WorldDelta, WorldState
+from wire.outline import segment_distance_m
 
 SPACE = Airspace(flat())
 place = st.tuples(st.floats(0.5, 7.5), st.floats(0.5, 3.5), st.floats(0.5, 2.0))
 
 
 def to_walls_m(point) -> float:
-    return min(to_segment_m(point, a, b) for a, b in WALLS) - 0.05
+    return min(segment_distance_m(point, a, b) for a, b in WALLS) - 0.05
 
 
 def find_way(*given):

@@ -137,8 +137,7 @@ class Dispatch:
             short = [(r.id, why) for r in able if (why := self.short_of_power(step, r))]
             if not short or len(short) < len(able):
                 return ""
-            about = step.node.object or step.node.room or ""
-            said += [f"{id} could not {step.node.action} {about}: {why}" for id, why in short]
+            said += [f"{id} could not {step.deed}: {why}" for id, why in short]
         return said[0] if said else ""
 
     def place(self, step: Step) -> Vec3 | None:

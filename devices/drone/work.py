@@ -2,6 +2,7 @@
 
 from math import dist
 
+from devices.drone.course import CRUISE_MPS
 from devices.drone.craft import Craft
 from devices.drone.flight import Trouble, go_to
 from devices.drone.moves import Skilled
@@ -12,7 +13,7 @@ from devices.worker import Outcome, Pose
 from wire.messages.command import Command, DeviceCard
 from wire.model import Vec2
 
-RADIUS_M, SPEED_MPS = 0.3, 1.0
+RADIUS_M = 0.3
 LOW_BATTERY = 0.12
 """An idle drone lands with less; one at work is brought down by its autopilot's own failsafe."""
 ASIDE_AGAIN_M, ASIDE_SLACK_M = 0.3, 1.0
@@ -40,7 +41,7 @@ class DroneWorker:
             boot_id=boot_id,
             skills=tuple(skill.card() for skill in SKILLS.values()),
             radius_m=RADIUS_M,
-            speed_mps=SPEED_MPS,
+            speed_mps=CRUISE_MPS,
         )
 
     def fault_of(self, command: Command) -> str:

@@ -110,12 +110,18 @@ def get_up(craft: Craft, height_m: float) -> Trouble:
 
 
 def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
-    """To a place by a way that is clear of walls and goes through doors; up first where it stands on the ground."""
+    """To a place; up first where it stands on the ground."""
     if fault := craft.space.fault(goal_m):
         return failed("unreachable", fault)
     trouble = yield from get_up(craft, min(craft.cruise_m, craft.space.top_m(craft.position_m)))
-    if trouble is not None:
-        return trouble
+    return trouble or (yield from fly_to(craft, goal_m, facing, limits))
+
+
+def fly_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
+    """To a place by a way that is clear of walls and goes through doors.
+
+    For what is in the air: to go on, home or out of the way it needs no more battery than it has.
+    """
     start_m = craft.standing_m
     way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m, craft.level_m)
     if way is None:
@@ -178,7 +184,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
 def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
     """Begin to steer there; what was led away from it meanwhile flies back by a way that is clear."""
     if dist(craft.position_m, where_m) > OFF_COURSE_M:
-        trouble = yield from go_to(craft, where_m)
+        trouble = yield from fly_to(craft, where_m)
         if trouble is not None:
             return trouble
     if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, yaw_rad)))):
@@ -241,7 +247,7 @@ def _find_ground(craft: Craft) -> Trouble:
         goal_m = nearest_open(craft.space, (*spot_m, craft.position_m[2]), SPOT_SLACK_M) if spot_m is not None else None
         if goal_m is not None and dist(goal_m, craft.position_m) > SPOT_SLACK_M:
             craft.note = "flying to where it is free to land"
-            trouble = yield from go_to(craft, goal_m)
+            trouble = yield from fly_to(craft, goal_m)
             if trouble is not None:
                 return trouble
         else:

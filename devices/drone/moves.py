@@ -5,11 +5,10 @@ from math import radians
 
 from pydantic import Field, field_validator, model_validator
 
-from devices.drone.course import Course, Limits, along_legs
+from devices.drone.course import Course, Limits
 from devices.drone.craft import Craft
-from devices.drone.flight import ahead, come_down, face, failed, fly, get_up, go_to, turn
+from devices.drone.flight import ahead, come_down, face, failed, fly, fly_to, get_up, go_to, turn
 from devices.drone.places import near_target, place_of
-from devices.drone.route import find_way
 from devices.drone.spline import through
 from devices.worker import Outcome
 from wire.messages.command import Command, Target
@@ -164,9 +163,6 @@ def return_home(craft: Craft, command: Command) -> Skilled:
         return failed("precondition", "it was in the air already when this process began, so home is not known")
     home_m = (*craft.home_m[:2], min(craft.cruise_m, craft.space.top_m(craft.home_m)))
     craft.note = "flying home"
-    way = yield from find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m, craft.level_m)
-    if way is None:
-        return failed("unreachable", "there is no way home that the drone fits through")
-    trouble = yield from fly(craft, Course(along_legs(way)), ahead)
+    trouble = yield from fly_to(craft, home_m)
     trouble = trouble or (yield from come_down(craft))
     return trouble or Outcome("done", "ok", "home, and landed", craft.position_m)

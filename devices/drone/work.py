@@ -4,7 +4,7 @@ from math import dist
 
 from devices.drone.course import CRUISE_MPS
 from devices.drone.craft import Craft
-from devices.drone.flight import Trouble, go_to
+from devices.drone.flight import Trouble, fly_to
 from devices.drone.moves import Skilled
 from devices.drone.places import room_of
 from devices.drone.route import nearest_open
@@ -145,7 +145,7 @@ class DroneWorker:
         if self._aside_m is None or dist(wanted, self._aside_m) > ASIDE_AGAIN_M:
             goal_m = nearest_open(craft.space, (*wanted, craft.position_m[2]), ASIDE_SLACK_M)
             craft.hover()
-            self._aside_m, self._aside = wanted, go_to(craft, goal_m) if goal_m is not None else None
+            self._aside_m, self._aside = wanted, fly_to(craft, goal_m) if goal_m is not None else None
         if self._aside is not None and next(self._aside, THROUGH) is THROUGH:
             self._aside = None
             craft.hover()

@@ -4,6 +4,8 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist, pi
 
+import pytest
+
 from devices.drone.flight import face
 from devices.drone.pilot import Land, TakeOff
 from tests.devices.drone.scripted import Flown
@@ -79,9 +81,11 @@ def test_it_lands_only_when_nobody_passes_below() -> None:
     assert not flown.craft.airborne
 
 
-def test_where_somebody_stands_below_it_lands_beside() -> None:
+@pytest.mark.parametrize("battery", [0.9, 0.15])
+def test_where_somebody_stands_below_it_lands_beside(battery: float) -> None:
     flown = Flown()
     flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, battery=battery)
     flown.craft.order = order(column_taken=True, land_at_m=(2.5, 2.5))
     flown.begin("land")
     for _ in range(2000):
@@ -93,6 +97,15 @@ def test_where_somebody_stands_below_it_lands_beside() -> None:
     assert outcome.status == "done"
     assert dist(flown.craft.position_m[:2], (2.5, 2.5)) < 0.4
     assert any(isinstance(asked, Land) for asked in flown.pilot.orders)
+
+
+def test_on_its_last_charge_it_still_makes_way() -> None:
+    flown = Flown()
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, battery=0.15)
+    flown.craft.order = order(step_aside_m=(1.0, 3.0))
+    flown.pause(8.0)
+    assert dist(flown.craft.position_m[:2], (1.0, 3.0)) < 0.4
 
 
 def test_led_away_while_it_turns_it_flies_back_before_it_looks() -> None:

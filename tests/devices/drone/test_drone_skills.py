@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist, hypot, pi
 
-from devices.drone.pilot import Hover, Land, Pictured, Said, Shoot, TakeOff
+from devices.drone.pilot import Found, Hover, Land, Pictured, Said, Shoot, TakeOff
 from devices.drone.skills import SKILLS
 from tests.devices.drone.scripted import Flown, kinds
 from wire.frames import bearing_rad
@@ -191,6 +191,20 @@ def test_an_idle_drone_lands_before_its_battery_is_empty():
     flown.pilot.says = replace(flown.pilot.says, battery=0.1)
     flown.pause(1.0)
     assert isinstance(flown.pilot.orders[-1], Land)
+    assert not flown.craft.airborne
+
+
+def test_a_landing_that_the_old_link_swallowed_is_asked_for_over_the_new_one():
+    flown = Flown()
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, battery=0.1)
+    flown.pilot.deaf = True
+    flown.pause(4.0)
+    assert flown.craft.airborne
+    flown.pilot.deaf = False
+    flown.pilot.tell(Found(1, "px4"))
+    flown.pause(4.0)
+    assert kinds(flown).count("Land") == 2
     assert not flown.craft.airborne
 
 

@@ -6,12 +6,12 @@ from math import ceil, floor, hypot, inf
 
 from wire.model import Vec2, Vec3
 from wire.outline import segment_distance_m, spans
-from wire.site import Door, Site, Wall
+from wire.site import UNDER_CEILING_M, Door, Site, Wall
 
 CELL_M = 0.1
 NEEDED_M, WANTED_M = 0.35, 0.7
 """From the middle of the drone to a wall: at least, and where there is room."""
-UNDER_CEILING_M, UNDER_LINTEL_M = 0.4, 0.3
+UNDER_LINTEL_M = 0.3
 LEAST_HEIGHT_M = 0.4
 DOORWAY_M = 0.6
 """The drone is under a lintel this far from the middle line of a door."""

@@ -171,14 +171,18 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
         _tell_path(craft, course, follower.clock_s)
         craft.fraction = follower.fraction
         yield
-        if craft.taken_over and craft.telemetry is not None:
-            mode = craft.telemetry.mode.lower().replace("_", " ")
-            return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
+        if craft.taken_over:
+            return _taken_over(craft)
         if follower.late_s > LATE_S:
             off_m = dist(craft.position_m, course.at(follower.clock_s)[0])
             return failed("blocked", f"does not get on: {off_m:.1f} m from where it should be{craft.why()}")
     craft.path_m, craft.path_heights_m = (), ()
     return None
+
+
+def _taken_over(craft: Craft) -> Outcome:
+    mode = craft.telemetry.mode.lower().replace("_", " ") if craft.telemetry is not None else "another mode"
+    return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
 
 
 def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
@@ -213,6 +217,8 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
         craft.fly(Setpoint(where_m, STILL, yaw_rad))
         craft.stop_m = where_m
         yield
+        if craft.taken_over:
+            return _taken_over(craft)
         if craft.now_s - begun_s > TURN_S:
             return failed("driver", f"does not turn{craft.why()}")
     return None

@@ -127,6 +127,19 @@ def test_who_takes_over_is_left_alone():
     assert len(flown.pilot.orders) == orders, "it flies home by itself"
 
 
+def test_who_takes_over_while_it_turns_is_left_alone_too():
+    flown = Flown()
+    flown.do("take_off")
+    flown.begin("goto", point_m=(1.0, 1.0), params={"yaw_deg": 180.0})
+    flown.work(1.5)
+    assert 0.1 < abs(flown.craft.yaw_rad) < 3.0
+    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")
+    outcome = flown.work(5.0)
+    assert outcome.code == "interrupted"
+    assert outcome.reason == "(1.0, 1.0): the autopilot has gone over to posctl"
+    assert kinds(flown)[-1] == "Steer"
+
+
 def test_traffic_makes_it_wait_and_step_aside():
     flown = Flown()
     flown.begin("goto", point_m=(3.0, 1.0))

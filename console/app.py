@@ -10,7 +10,7 @@ from console.output import say_failure
 
 _UsageError = cast("type[typer.BadParameter]", typer.BadParameter.__base__)
 """Of all that can be typed wrong; typer does not export it."""
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help="The R2X console.")
+app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, help="The R2X console.")
 mesh_commands.register(app)
 operate_commands.register(app)
 watch_commands.register(app)
@@ -22,5 +22,5 @@ def run(words: Sequence[str]) -> int:
         return int(app(words, prog_name="justw", standalone_mode=False) or 0)
     except _UsageError as error:
         command = error.ctx.command_path if error.ctx is not None else "justw"
-        say_failure(f"{error.format_message()} (`{command} --help` tells more)", "--json" in words)
+        say_failure(f"{error.format_message().removesuffix('.')} (`{command} --help` tells more)", "--json" in words)
         return error.exit_code

@@ -9,12 +9,16 @@ TIMELINE = "time"
 
 def blueprint(
     cameras: Sequence[str],
-    robots: Sequence[str],
+    carried: Sequence[str],
     centre_m: tuple[float, float],
     span_m: float,
-    flyers: Sequence[str] = (),
+    *,
+    flight: bool = False,
 ) -> rrb.Blueprint:
-    """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right."""
+    """World and task timeline on the left, pictures in the middle, plan, metrics and log on the right.
+
+    `carried`: the cameras that move; they look into the world. `flight`: whether somebody flies.
+    """
     x, y = centre_m
     world = rrb.Spatial3DView(
         origin="world",
@@ -24,13 +28,13 @@ def blueprint(
             position=[x, y - 0.55 * span_m, 0.85 * span_m], look_target=[x, y, 0.0], eye_up=[0, 0, 1]
         ),
     )
-    pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *robots)]
+    pictures = [rrb.Spatial2DView(origin=f"world/cameras/{c}/picture", name=c) for c in (*cameras, *carried)]
     # each with a scale of its own: fractions beside metres would be a flat line
     metrics = rrb.Tabs(
         rrb.TimeSeriesView(origin="metrics/seen", name="Seen of each room"),
         rrb.TimeSeriesView(origin="metrics/travelled_m", name="Metres walked"),
         rrb.TimeSeriesView(origin="metrics/counts", name="Objects, replans"),
-        *([rrb.TimeSeriesView(origin="flight", name="Battery and height")] if flyers else []),
+        *([rrb.TimeSeriesView(origin="flight", name="Battery and height")] if flight else []),
         name="Metrics",
     )
     return rrb.Blueprint(

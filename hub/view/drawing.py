@@ -81,12 +81,12 @@ class Drawing:
             return
         self.at(frame.stamp_s)
         path = f"world/cameras/{frame.camera}/picture"
-        if frame.depth_mm is not None or self._flies(frame.camera):  # a camera that measures depth rides on a robot
+        if frame.depth_mm is not None or self.flies(frame.camera):  # a camera that measures depth rides on a robot
             self._place(frame, path)
         if self._news(path, frame.stamp_s, frame.jpeg):
             self._rec.log(path, rr.EncodedImage(contents=frame.jpeg, media_type="image/jpeg"))
 
-    def _flies(self, camera: str) -> bool:
+    def flies(self, camera: str) -> bool:
         """Whether a camera is one of a drone's: called like it, with a word of its own after that if it has several."""
         return any(camera == flyer or camera.startswith(f"{flyer}-") for flyer in self._flyers)
 

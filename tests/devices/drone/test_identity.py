@@ -1,4 +1,4 @@
-"""A system is known by its heartbeat, however late that is read."""
+"""What MAVSDK shows of a vehicle, bit by bit, and what is made of it."""
 
 import asyncio
 

@@ -151,16 +151,17 @@ def towards(point_m: Vec2) -> Facing:
 def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     """Along a course to its end. What interrupts it, it comes back from to where it had stopped."""
     follower = Follower(course, craft.now_s)
-    yaw_rad, stepped_s = craft.yaw_rad, craft.now_s
+    yaw_rad, stepped_s, begun = craft.yaw_rad, craft.now_s, False
     craft.action_steps += 1
     while not (craft.steered and follower.arrived(craft.position_m)):
         if not craft.steered:
             follower.stand(craft.now_s)
-            trouble = yield from _take_up(craft, follower.stop_m, yaw_rad)
+            trouble = (yield from _come_back(craft, follower.stop_m)) if begun else None
+            trouble = trouble or (yield from _take_up(craft, follower.stop_m, yaw_rad))
             if trouble is not None:
                 return trouble
             follower.stand(craft.now_s)
-            yaw_rad, stepped_s = craft.yaw_rad, craft.now_s
+            yaw_rad, stepped_s, begun = craft.yaw_rad, craft.now_s, True
         position_m, velocity_mps = follower.step(craft.now_s, craft.position_m, craft.may_move)
         wanted_rad = facing(position_m, velocity_mps)
         if wanted_rad is not None:
@@ -185,12 +186,13 @@ def _taken_over(craft: Craft) -> Outcome:
     return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
 
 
+def _come_back(craft: Craft, where_m: Vec3) -> Trouble:
+    """What was led away meanwhile flies back by a way that is clear."""
+    return (yield from fly_to(craft, where_m)) if dist(craft.position_m, where_m) > OFF_COURSE_M else None
+
+
 def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
-    """Begin to steer there; what was led away from it meanwhile flies back by a way that is clear."""
-    if dist(craft.position_m, where_m) > OFF_COURSE_M:
-        trouble = yield from fly_to(craft, where_m)
-        if trouble is not None:
-            return trouble
+    """Begin to steer there."""
     if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, yaw_rad)))):
         return failed("driver", f"the autopilot takes no setpoints: {reason}")
     return None
@@ -208,7 +210,8 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
     yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s
     while abs(wrap_rad(wanted_rad - craft.yaw_rad)) > FACED_RAD:
         if not craft.steered:
-            trouble = yield from _take_up(craft, where_m, craft.yaw_rad)
+            trouble = yield from _come_back(craft, where_m)
+            trouble = trouble or (yield from _take_up(craft, where_m, craft.yaw_rad))
             if trouble is not None:
                 return trouble
             yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist, hypot, pi
 
-from devices.drone.pilot import Found, Hover, Land, Pictured, Said, Shoot, TakeOff
+from devices.drone.pilot import Found, Hover, Land, Pictured, Said, Shoot, Steer, TakeOff
 from devices.drone.skills import SKILLS
 from tests.devices.drone.scripted import Flown, kinds
 from wire.frames import bearing_rad
@@ -111,6 +111,16 @@ def test_a_camera_that_fails_is_told_of():
     del flown.pilot.refusals[Shoot]
     flown.pilot.picture = Pictured(8, False)
     assert flown.do("take_picture").reason == "the camera could not take the picture"
+
+
+def test_one_that_comes_along_fast_is_taken_up_where_it_can_stop():
+    flown = Flown()
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, velocity_enu_mps=(2.0, 0.0, 0.0), mode="RETURN_TO_LAUNCH")
+    flown.tick()
+    assert flown.do("goto", point_m=(3.0, 3.0)).status == "done"
+    taken_up = next(order for order in flown.pilot.orders if isinstance(order, Steer))
+    assert dist(taken_up.setpoint.position_enu_m, (3.0, 1.0, 1.5)) < 0.01
 
 
 def test_who_takes_over_is_left_alone():

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import rerun.blueprint as rrb
 
 TIMELINE = "time"
+_TWO_COLUMNS = 8
+"""More pictures than these would be too small on a common screen."""
 
 
 def blueprint(
@@ -40,7 +42,7 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Horizontal(
             rrb.Vertical(world, rrb.StateTimelineView(origin="tasks", name="What each robot does"), row_shares=[4, 1]),
-            rrb.Grid(*pictures, grid_columns=2),
+            rrb.Grid(*pictures, grid_columns=2 if len(pictures) <= _TWO_COLUMNS else 3),
             rrb.Vertical(
                 rrb.GraphView(origin="plan", name="Plan"),
                 rrb.TextDocumentView(origin="task", name="Task"),

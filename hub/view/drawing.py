@@ -100,7 +100,7 @@ class Drawing:
             place_lens(self._rec, frame.camera, *lens, plane_m=0.4)
 
     def observation(self, batch: ObservationBatch) -> None:
-        boxes = [(o.box_px, f"{o.type} {o.confidence:.2f}") for o in batch.objects if o.box_px is not None]
+        boxes = [(o.box_px, o.type) for o in batch.objects if o.box_px is not None]
         self.at(batch.stamp_s)
         path = f"world/cameras/{batch.source}/picture/seen"
         if self._news(path, batch.stamp_s, boxes):

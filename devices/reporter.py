@@ -1,11 +1,14 @@
-"""What a device says of itself while it works: its state ten times a second, its progress twice."""
+"""What a device says of itself: its state ten times a second, or twice while it stands idle, and its progress."""
+
+from math import hypot, inf
 
 from devices.worker import Pose
 from wire.bus import Node
 from wire.messages.command import Progress, RobotReport
 from wire.messages.world import RobotStatus
 
-REPORT_S, PROGRESS_S = 0.1, 0.5
+REPORT_S, IDLE_REPORT_S, PROGRESS_S = 0.1, 0.5, 0.5
+STANDS_MPS = 0.02
 EARLY_S = 1e-6
 """Periods are reached in floating-point steps."""
 
@@ -13,7 +16,9 @@ EARLY_S = 1e-6
 class Reporter:
     def __init__(self, id: str) -> None:
         self.id = id
-        self._report_due_s = self._progress_due_s = 0.0
+        self._progress_due_s = 0.0
+        self._told_s, self._told_idle = -inf, False
+        """When it last reported, and whether it stood idle."""
         self._seq = 0
 
     def start(self, node: Node) -> None:
@@ -21,9 +26,14 @@ class Reporter:
 
     def tell(self, now_s: float, pose: Pose | None, status: RobotStatus, goal_id: str | None) -> None:
         """Publish a report when one is due; nothing before the body knows where it is."""
-        if pose is None or now_s < self._report_due_s - EARLY_S:
+        if pose is None:
             return
-        self._report_due_s = now_s + REPORT_S
+        stands = hypot(*(pose.velocity_enu_mps or ())) < STANDS_MPS and not pose.airborne
+        idle = status == "idle" and stands and not pose.path_m
+        period_s = IDLE_REPORT_S if idle and self._told_idle else REPORT_S
+        if 0.0 <= now_s - self._told_s < period_s - EARLY_S:
+            return
+        self._told_s, self._told_idle = now_s, idle
         self._seq += 1
         report = RobotReport(
             robot=self.id,

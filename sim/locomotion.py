@@ -10,8 +10,10 @@ from wire.bus import Node
 from wire.messages.driver import LaserScan, Odometry, VelocityCommand
 
 SCAN_HZ = 5.0
-STANDING_HZ = 5.0
-"""Where a robot stands is told this often, where it moves at every step."""
+STANDING_HZ = 4.0
+"""Where a robot stands is told this often, where it moves at every step; and so often is it looked around from there."""
+SAME_SCAN_S = 1.0
+"""From where it stands, what has not changed is told again after this."""
 STANDS_MPS, STANDS_RADPS = 0.005, 0.01
 
 
@@ -27,6 +29,9 @@ class Locomotion:
         self._step_s = step_s
         self._scan_every = max(1, round(1.0 / (SCAN_HZ * step_s)))
         self._standing_every = max(1, round(1.0 / (STANDING_HZ * step_s)))
+        self._same_scan_ticks = round(SAME_SCAN_S / step_s)
+        self._scanned: tuple[int, tuple[float, ...]] = (0, ())
+        """Tick and ranges of the last sweep that was told."""
         self._touched = False
         self._deadline_s = 0.0
         self._seq = {"odometry": 0, "scan": 0}
@@ -45,10 +50,19 @@ class Locomotion:
     def publish(self, node: Node, tick: int, now_s: float) -> None:
         """What is due at this tick."""
         self._drift.advance(self._step_s)
-        if tick % self._standing_every == 0 or self._moves():
+        moves, standing_due = self._moves(), tick % self._standing_every == 0
+        if moves or standing_due:
             node.publish("odometry", self._odometry(now_s), self.id)
-        if tick % self._scan_every == 0:
-            node.publish("scan", self._scan(now_s), self.id)
+        if tick % self._scan_every == 0 if moves else standing_due:
+            self._look_around(node, tick, now_s, moves)
+
+    def _look_around(self, node: Node, tick: int, now_s: float, moves: bool) -> None:
+        ranges_m = self._lidar.sweep()
+        told_tick, told_m = self._scanned
+        if not moves and ranges_m == told_m and tick - told_tick < self._same_scan_ticks:
+            return
+        self._scanned = (tick, ranges_m)
+        node.publish("scan", self._scan(now_s, ranges_m), self.id)
 
     def _moves(self) -> bool:
         """It goes or turns, is about to, or has come upon something or off it."""
@@ -78,7 +92,7 @@ class Locomotion:
             in_contact=self._touched,
         )
 
-    def _scan(self, now_s: float) -> LaserScan:
+    def _scan(self, now_s: float, ranges_m: tuple[float, ...]) -> LaserScan:
         x, y, yaw_rad = self.estimate()
         return LaserScan(
             robot=self.id,
@@ -89,7 +103,7 @@ class Locomotion:
             angle_min_rad=ANGLE_MIN_RAD,
             angle_step_rad=ANGLE_STEP_RAD,
             range_max_m=RANGE_M,
-            ranges_m=self._lidar.sweep(),
+            ranges_m=ranges_m,
         )
 
     def _next(self, stream: str) -> int:

@@ -7,7 +7,7 @@ clock's owner sent up to tick n and what everybody else sent before tick n: the 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 from wire.model import Message
 
@@ -101,7 +101,6 @@ class Core(Protocol):
         """Release what `start` took."""
 
 
-@runtime_checkable
 class Resting(Protocol):
     """What a core may say besides, so that lockstep goes on without it while it has nothing to do."""
 

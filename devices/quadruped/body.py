@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterable
-from math import cos, hypot, sin
+from math import cos, hypot, inf, sin
 
 from devices.quadruped.look import Look
 from devices.quadruped.map import FloorMap
@@ -24,6 +24,8 @@ MOST_LOOKS = 24
 ROBOT_NEAR_M = 1.1
 TOUCH_WEIGHT = 30.0
 """Outlasts the beams that pass above or below what was touched for half a minute."""
+STANDING_AGAIN_S, EARLY_S = 1.0, 1e-6
+"""A driver that is asked to stand stands; so often it is asked again."""
 BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
 
 
@@ -48,6 +50,8 @@ class Body:
         self._forward_mps = self._left_mps = self._yaw_rate_radps = 0.0
         self._tilt_rad = WALK_TILT_RAD
         self._seq = self._grips = 0
+        self._asked: tuple[float, tuple[float, ...]] = (-inf, ())
+        """When the driver was asked for what: velocities and the camera's tilt."""
         self._pending: GripperCommand | None = None
         self._awaited: str | None = None
 
@@ -161,18 +165,22 @@ class Body:
         self._awaited = None
 
     def publish(self, node: Node) -> None:
-        """Send what is asked of the driver: once a step."""
+        """Send what is asked of the driver: once a step, and while it stands only now and then."""
         if self._pending is not None:
             node.publish("gripper_command", self._pending, self.id)
             self._pending = None
-        self._seq += 1
-        still = not self.may_move
+        motion = (self._forward_mps, self._left_mps, self._yaw_rate_radps) if self.may_move else (0.0, 0.0, 0.0)
+        asked, (since_s, before) = (*motion, self._tilt_rad), self._asked
+        if asked == before and not any(motion) and 0.0 <= self.now_s - since_s < STANDING_AGAIN_S - EARLY_S:
+            return
+        self._asked, self._seq = (self.now_s, asked), self._seq + 1
+        forward_mps, left_mps, yaw_rate_radps = motion
         command = VelocityCommand(
             robot=self.id,
             seq=self._seq,
-            forward_mps=0.0 if still else self._forward_mps,
-            left_mps=0.0 if still else self._left_mps,
-            yaw_rate_radps=0.0 if still else self._yaw_rate_radps,
+            forward_mps=forward_mps,
+            left_mps=left_mps,
+            yaw_rate_radps=yaw_rate_radps,
             camera_tilt_down_rad=self._tilt_rad,
         )
         node.publish("velocity", command, self.id)

@@ -9,11 +9,9 @@ from sim.bullet import STEP_S
 from sim.mavlink.endpoint import Aboard, Endpoint
 from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
 from sim.physics import Physics
+from sim.scene import ORIGIN
 from wire.bus import CannotRun
 from wire.site import Robot, Site
-
-ORIGIN = (47.397742, 8.545594, 488.0)
-"""Latitude, longitude and height above the sea of a site's origin: where PX4's own simulation stands."""
 
 
 class Hangar:

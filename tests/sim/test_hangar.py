@@ -77,6 +77,21 @@ def test_a_client_at_the_drones_address_flies_it(firmware) -> None:
         flown.close()
 
 
+def test_the_barometer_and_the_fix_agree_on_the_height_above_the_sea() -> None:
+    port = free_port(socket.SOCK_DGRAM)
+    flown = Flown(f"udpin://127.0.0.1:{port}")
+    client = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="ardupilotmega")
+    try:
+        flown.run(2.0)
+        fix = client.recv_match(type="GPS_RAW_INT", blocking=True, timeout=2.0)
+        pressure = client.recv_match(type="SCALED_PRESSURE", blocking=True, timeout=2.0)
+        standard_m = 44330.0 * (1.0 - (pressure.press_abs / 1013.25) ** 0.190295)
+        assert standard_m == pytest.approx(fix.alt / 1000.0, abs=10.0)
+    finally:
+        client.close()
+        flown.close()
+
+
 def test_a_ground_station_may_look_on() -> None:
     port, station = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_DGRAM)
     flown = Flown(f"udpin://127.0.0.1:{port}", mavlink_out=[f"127.0.0.1:{station}"])

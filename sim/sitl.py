@@ -132,10 +132,12 @@ class Sitl:
         where = "a bare floor" if options.house is None else f"home {options.house}"
         ids = "system id 1" if options.vehicles == 1 else f"system ids 1 to {options.vehicles}"
         latitude, longitude, altitude_m, _ = options.home
+        fixed = f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; position also as a GPS fix"
         lines = [
             f"{options.vehicles} x {PERSONALITIES[options.firmware].banner}, {ids}, over {where}",
-            f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; "
-            + ("position also as a GPS fix" if options.gps == "fused" else "no GPS: local or external position only"),
+            fixed
+            if options.gps == "fused"
+            else "no GPS: no position until a client sends poses, no origin until it sets one",
         ]
         here = "127.0.0.1" if ipaddress.ip_address(options.bind).is_unspecified else options.bind
         for link in self.links:

@@ -19,12 +19,24 @@ def test_links_by_default() -> None:
 
 
 @pytest.mark.parametrize(
+    "arguments", [["--home", "-35.363262,149.165237,584,353"], ["--home=-35.363262,149.165237,584,353"]]
+)
+def test_a_home_in_the_south(arguments) -> None:
+    """Where ArduPilot's own simulation stands."""
+    assert parse(arguments).home == (-35.363262, 149.165237, 584.0, 353.0)
+    assert parse(["--seed", "2", *arguments, "--tcp", "0"]).tcp == (0,)
+
+
+@pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (["--tcp", "70000"], "is no port"),
         (["--udp-out", "14550"], "give HOST:PORT"),
         (["--home", "1,2,3"], "give LAT,LON,ALT,YAW"),
         (["--home", "91,2,3,0"], "degrees within"),
+        (["--home", "-95,2,3,0"], "degrees within"),
+        (["--home", "1,2,3,1e300"], "degrees within"),
+        (["--home", "--seed"], "expected one argument"),
         (["--home", "nan,2,3,0"], "give LAT,LON,ALT,YAW"),
         (["--vehicles", "0"], "give 1 to 10"),
         (["--scene", "house"], "give empty, or home:SEED"),
@@ -52,6 +64,7 @@ def test_in_a_home() -> None:
     text = "\n".join(sitl.lines())
     assert "system ids 1 to 2, over home 7" in text
     assert "no GPS" in text
+    assert "47.39" not in text, "nobody has told it an origin"
     assert "signed with the key" in text
     for _ in range(240):
         sitl.flight.step()

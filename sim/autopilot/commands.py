@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from sim.autopilot import orders
-from sim.autopilot.arming import FORCE
+from sim.autopilot.arming import FORCE, reasons
 from sim.autopilot.conduct import Conduct
 from sim.autopilot.geo import place
 from sim.autopilot.interface import Ack, Answer, Command, Severity
@@ -25,6 +25,15 @@ def _arm(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(now.row.refused, "Disarming refused: it is not on the ground")
     if now.armed:
         conduct.disarm("Killed" if now.flying else "Disarmed", now_s)
+    return _ACCEPTED
+
+
+def _check(conduct: Conduct, command: Command, now_s: float) -> Answer:
+    """RUN_PREARM_CHECKS: every reason against arming is said."""
+    if conduct.now.armed:
+        return Answer(Ack.TEMPORARILY_REJECTED, "Checks refused: it is armed")
+    for reason in reasons(conduct.now, conduct.failsafes.watch):
+        conduct.now.say(Severity.WARNING, f"PreArm: {reason}")
     return _ACCEPTED
 
 
@@ -166,5 +175,6 @@ COMMANDS: dict[int, Callable[[Conduct, Command, float], Answer]] = {
     252: orders.override,
     300: orders.start_mission,
     400: _arm,
+    401: _check,
     420: _fail,
 }

@@ -7,7 +7,7 @@ from sim.autopilot.firmware import Firmware
 from sim.autopilot.personality import PERSONALITIES
 from sim.bullet import STEP_S
 from sim.mavlink.endpoint import Aboard, Endpoint
-from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
+from sim.mavlink.links import LeavesMachine, Link, LinkError, TcpServer, UdpIn, UdpOut
 from sim.physics import Physics
 from sim.scene import ORIGIN
 from wire.bus import CannotRun
@@ -35,7 +35,8 @@ class Hangar:
                 )
             except LinkError as error:
                 self.close()
-                raise CannotRun(f"the autopilot of {robot.id}: {error}") from error
+                remedy = "; send it to a MAVLink router here instead" if isinstance(error, LeavesMachine) else ""
+                raise CannotRun(f"the autopilot of {robot.id}: {error}{remedy}") from error
             self._firmwares.append(firmware)
         physics.each_step.append(self._decide)
 

@@ -17,7 +17,7 @@ from sim.bullet import STEP_S, add_floor, open_bullet
 from sim.flight.quadrotor import Quadrotor
 from sim.generator.home import make_home
 from sim.mavlink.endpoint import Aboard, Endpoint
-from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
+from sim.mavlink.links import LeavesMachine, Link, LinkError, TcpServer, UdpIn, UdpOut
 from sim.mavlink.peer import Signing
 from sim.physics import EVERYTHING, FIRST_ROBOT, FLOOR, Physics
 from sim.sitl_options import Options, parse
@@ -175,7 +175,8 @@ def main(argv: list[str] | None = None) -> int:
     try:
         sitl = Sitl(options)
     except LinkError as error:
-        sys.stderr.write(f"error: {error}\n")
+        remedy = ": add --bind ADDRESS, its own there" if isinstance(error, LeavesMachine) else ""
+        sys.stderr.write(f"error: {error}{remedy}\n")
         return 1
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, sitl.stop)

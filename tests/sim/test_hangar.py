@@ -113,6 +113,12 @@ def test_a_port_in_use_is_told_with_the_drone() -> None:
             Flown(f"tcpout://127.0.0.1:{port}")
 
 
+def test_a_ground_station_on_another_machine_is_told_of_a_way() -> None:
+    port = free_port(socket.SOCK_DGRAM)
+    with pytest.raises(CannotRun, match=r"leaves this machine.*; send it to a MAVLink router here"):
+        Flown(f"udpin://127.0.0.1:{port}", mavlink_out=["192.0.2.7:14550"])
+
+
 @pytest.mark.parametrize(
     ("link", "here"),
     [

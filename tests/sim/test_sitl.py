@@ -59,6 +59,11 @@ def test_port_in_use(capsys) -> None:
     assert f"TCP port {port} is in use" in capsys.readouterr().err
 
 
+def test_a_station_elsewhere_needs_an_address_to_bind_to(capsys) -> None:
+    assert main(["--udp-out", "192.0.2.7:14550"]) == 1
+    assert "leaves this machine, but links bind to 127.0.0.1: add --bind ADDRESS" in capsys.readouterr().err
+
+
 def test_in_a_home() -> None:
     sitl = Sitl(parse(["--scene", "home:7", "--tcp", "0", "--vehicles", "2", "--gps", "none", "--sign-key", "ab" * 32]))
     text = "\n".join(sitl.lines())

@@ -1,5 +1,6 @@
 """A drone's process without its shell: the device that takes goals, the pilot that flies them."""
 
+import logging
 from collections.abc import Callable, Sequence
 
 from devices.device import Device
@@ -16,6 +17,7 @@ from wire.messages.world import SnapshotRequest, WorldDelta, WorldState
 from wire.model import Message
 from wire.site import Robot, Site
 
+log = logging.getLogger("drone")
 KIND = "drone"
 CONTROL_S = 0.05
 EARLY_S = 1e-6
@@ -104,6 +106,7 @@ class DroneCore:
         if text == self._said:
             return
         self._said = text
+        log.info("%s", text)
         line = EventLog(source=self._id, seq=self._lines, stamp_s=self.craft.now_s, text=text[:2000])
         self._lines += 1
         self._node.publish("event", line, self._id)

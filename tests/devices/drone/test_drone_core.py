@@ -54,6 +54,13 @@ def flying(seconds: float) -> tuple[ScriptedPilot, DroneCore, Hub, LoopbackMesh]
     return pilot, core, hub, mesh
 
 
+def test_what_people_should_know_stands_in_its_log_too(caplog):
+    """Where `./justw logs` looks, and docs/fly-a-real-drone.md sends people."""
+    with caplog.at_level("INFO"):
+        flying(1.0)
+    assert "found an autopilot: system 1, px4; ready" in caplog.text
+
+
 def test_it_reports_ten_times_a_second_where_it_is_and_how_full():
     _, _, hub, _ = flying(6.0)
     assert 50 <= len(hub.reports) <= 62

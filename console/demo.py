@@ -10,7 +10,7 @@ from console.bring_up import Ready, bring_up
 from console.client import Client
 from console.floor_map import FloorMap
 from console.output import terminal
-from console.places import free_port, free_udp_ports, generate_home
+from console.places import flying, free_port, generate_home
 from console.task import RUNNING, run_task
 from deploy.launch import ProcessInfo
 from wire.messages.command import RobotReport
@@ -36,7 +36,7 @@ class Run:
 
 
 def demonstrate(
-    seed: int, out: Path, instruction: str | None, limit_s: float, keep: bool, quiet: bool, drones: int = 0
+    seed: int, out: Path, instruction: str | None, limit_s: float, keep: bool, quiet: bool, drones: int
 ) -> dict[str, Any]:
     """Bring a home up, do one instruction, write summary.json, run.rrd and map.png; returns the summary.
 
@@ -49,8 +49,7 @@ def demonstrate(
         terminal.print(f"generating the home of seed {seed} ...", markup=False)
     site_file = generate_home(
         seed, out / "site.toml", "--name", f"demo-{seed}", "--port", str(free_port()),
-        "--view-port", str(free_port()), "--save", str(recording), "--drones", str(drones),
-        "--mavlink-port", str(free_udp_ports(drones)),
+        "--view-port", str(free_port()), "--save", str(recording), *flying(drones),
     )  # fmt: skip
     ready = bring_up(site_file, quiet=quiet)
     try:
@@ -82,7 +81,7 @@ def _run(ready: Ready, instruction: str | None, limit_s: float, quiet: bool) -> 
         asked = before.task if instruction is None else None
         words = instruction or before.task.instruction
         look = _look_from_above(ready.site) if asked is not None else None
-        words = f"{words} and {look.text}" if look is not None else words
+        words = f"{words}, and {look.text}" if look is not None else words
         if not quiet:
             terminal.print(f"\ninstruction: {words}\n", markup=False)
         client.on("robot_report", RobotReport, trace)

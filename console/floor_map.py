@@ -21,6 +21,8 @@ _ROOM_BGR = {
 }
 _ROBOT_BGR = ((30, 130, 240), (220, 120, 30), (190, 60, 190), (90, 170, 40), (40, 200, 220), (70, 70, 220))
 _VERIFIED_BGR, _BELIEVED_BGR, _CAMERA_BGR = (40, 140, 40), (150, 150, 60), (170, 90, 10)
+_TITLE, _TITLE_PX = 0.6, 24
+"""Size of the title's letters, and the height of one of its lines."""
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
@@ -111,7 +113,18 @@ class FloorMap:
             self._label(obj.type, obj.position_enu_m, 7, (60, 60, 60), 0.34)
 
     def draw_title(self, text: str) -> None:
-        self._write(text, (8, 24), (40, 40, 40), 0.6)
+        """Above the floor plan, in as many lines as it takes; to be drawn last, for it moves the plan down."""
+        lines, wide_px = [""], self._image.shape[1] - 16
+        for word in text.split():
+            longer = f"{lines[-1]} {word}".strip()
+            if lines[-1] and cv2.getTextSize(longer, _FONT, _TITLE, 1)[0][0] > wide_px:
+                lines.append(word)
+            else:
+                lines[-1] = longer
+        room = np.full((_TITLE_PX * (len(lines) - 1), self._image.shape[1], 3), 255, np.uint8)
+        self._image = np.vstack([room, self._image])
+        for number, line in enumerate(lines):
+            self._write(line, (8, 24 + number * _TITLE_PX), (40, 40, 40), _TITLE)
 
     def draw_legend(self) -> None:
         """What the marks mean, along the lower edge."""

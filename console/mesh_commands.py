@@ -16,6 +16,7 @@ from wire.messages.world import RobotState, SnapshotRequest, WorldState
 from wire.site import Site, SiteError, load_site
 
 Json = Annotated[bool, typer.Option("--json", help="print one JSON document instead of text")]
+Drones = Annotated[int, typer.Option(help="how many drones fly in a generated home", min=0, max=4)]
 LineJson = Annotated[bool, typer.Option("--json", help="print one JSON object a line instead of text")]
 
 
@@ -30,11 +31,12 @@ def up(
     port: Annotated[
         int | None, typer.Option(help="of the router, instead of the site file's", min=1, max=65535)
     ] = None,
+    drones: Drones = 1,
     json_: Json = False,
 ) -> None:
     """Start a site's mesh under supervision and wait until every process has announced itself."""
     try:
-        ready = bring_up(prepare(site, seed, port), quiet=json_)
+        ready = bring_up(prepare(site, seed, port, drones), quiet=json_)
     except (SiteError, LaunchError) as error:
         fail(str(error), json_, 2 if isinstance(error, SiteError) else 1)
     document = {

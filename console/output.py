@@ -38,8 +38,12 @@ def checked(message: type[M], **fields: object) -> M:
 
 def fail(sentence: str, as_json: bool = False, code: int = 1) -> NoReturn:
     """End with one clear sentence and a non-zero exit."""
+    say_failure(sentence, as_json)
+    raise typer.Exit(code)
+
+
+def say_failure(sentence: str, as_json: bool) -> None:
     if as_json:
         print(json.dumps({"ok": False, "error": sentence}))
     else:
         typer.echo(f"error: {sentence}", err=True)
-    raise typer.Exit(code)

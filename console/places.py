@@ -32,25 +32,31 @@ def known_sites() -> list[Path]:
     return sorted(SITES.glob("*.toml"))
 
 
-def prepare(name_or_path: str | None, seed: int, port: int | None) -> Path:
-    """Find the site file that is meant; without one, write that of the generated home with this seed.
+def prepare(name_or_path: str | None, seed: int, port: int | None, drones: int) -> Path:
+    """Find the site file that is meant; without one, write that of the generated home with this seed and `drones`.
 
     The home takes the usual ports where they are free. `port`: of the router, instead of the one that the file says.
     """
     if name_or_path is None:
-        return _home_of(seed, port)
+        return _home_of(seed, port, drones)
     path = Path(name_or_path)
     named = SITES / f"{name_or_path}.toml"
     found = named if not path.exists() and named.exists() else path
     return found if port is None else _on_port(found, port)
 
 
-def _home_of(seed: int, port: int | None) -> Path:
+def _home_of(seed: int, port: int | None, drones: int) -> Path:
     folder = RUN / f"home-{seed}"
     _refuse_if_up(Mesh(folder), folder.name)  # the file that it runs from stays as it is
     router = free_port(ROUTER_PORT) if port is None else port
     view = free_port(VIEW_PORT)
-    return generate_home(seed, folder / "site.toml", "--port", str(router), "--view-port", str(view))
+    ports = ("--port", str(router), "--view-port", str(view))
+    return generate_home(seed, folder / "site.toml", *ports, *flying(drones))
+
+
+def flying(drones: int) -> tuple[str, ...]:
+    """Options of the generator for so many drones, at ports that nobody else sends to."""
+    return "--drones", str(drones), "--mavlink-port", str(free_udp_ports(drones))
 
 
 def _on_port(file: Path, port: int) -> Path:
@@ -81,7 +87,6 @@ def with_value(toml: str, table: str, key: str, value: str) -> str:
 
 def generate_home(seed: int, out: Path, *options: str) -> Path:
     """Have the simulator write the site file of its home `seed`: floor plan and cameras, no object."""
-    out.parent.mkdir(parents=True, exist_ok=True)
     command = [sys.executable, "-m", "sim.generator", "--seed", str(seed), "--out", str(out), *options]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -117,11 +122,14 @@ def _refuse_if_up(mesh: Mesh, name: str) -> None:
         raise LaunchError(f"the mesh of {name} already runs; `justw down` stops it")
 
 
-def free_udp_ports(count: int, preferred: int = 14540) -> int:
-    """The first of so many UDP ports in a row that are free, the preferred one if it is."""
-    first = preferred
+def free_udp_ports(count: int) -> int:
+    """The first of so many UDP ports in a row that are free.
+
+    Never 14540 and the like, though they may be free: autopilots send there unasked.
+    """
+    first = free_port()
     while not all(_is_free_udp(first + k) for k in range(count)):
-        first += 1
+        first = free_port()
     return first
 
 

@@ -13,7 +13,7 @@ import typer
 
 from console.client import ClientError
 from console.demo import demonstrate, summary_text
-from console.mesh_commands import Json
+from console.mesh_commands import Drones, Json
 from console.output import WordsError, emit, fail, terminal
 from console.places import current_mesh, free_port
 from console.viewer import quiet_environment, rerun_program
@@ -34,9 +34,7 @@ def demo(
     out: Annotated[Path, typer.Option(help="where the results go")] = Path("out/demo"),
     limit_s: Annotated[float, typer.Option(help="give up after this many seconds")] = 600.0,
     keep: Annotated[bool, typer.Option("--keep", help="leave the mesh up afterwards")] = False,
-    drones: Annotated[
-        int, typer.Option(help="how many drones fly too, and are asked for a look from above", min=0, max=4)
-    ] = 0,
+    drones: Drones = 1,
     json_: Json = False,
 ) -> None:
     """Bring a home full of cameras and robots up, have one instruction done, judge it, write out/demo/."""
@@ -55,7 +53,7 @@ def demo_seeds(
     seeds: Annotated[str, typer.Option(help="FIRST-LAST")] = "0-19",
     out: Annotated[Path, typer.Option(help="one folder per seed goes here")] = Path("out/seeds"),
     limit_s: Annotated[float, typer.Option(help="give up on a seed after this many seconds")] = 400.0,
-    drones: Annotated[int, typer.Option(help="how many drones fly too", min=0, max=4)] = 0,
+    drones: Drones = 1,
     json_: Json = False,
 ) -> None:
     """Run the demo on many seeds; every run is reported, failures with their reason, and written to OUT/seeds.json.

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from math import inf
 
 from planners.planner import PLANNERS, Planner
-from wire.bus import CannotRun, Event, Node, Request
+from wire.bus import Event, Node, Request
 from wire.messages.plan import PlanRequest
-from wire.site import Site
+from wire.site import Site, SiteError
 
 
 class PlannerCore:
@@ -35,5 +35,5 @@ def build(site: Site, process_id: str, planner: str | None = None) -> PlannerCor
     """The planner that the site file names, or another one by name."""
     name = planner or site.planner.name
     if name not in PLANNERS:
-        raise CannotRun(f"there is no planner {name!r}; planner.name in the site file can be {', '.join(PLANNERS)}")
+        raise SiteError(f"there is no planner {name!r}; planner.name in the site file can be {', '.join(PLANNERS)}")
     return PlannerCore(PLANNERS[name](site))

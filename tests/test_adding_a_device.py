@@ -29,7 +29,7 @@ from wire.messages.command import Command, DeviceCard, Target
 from wire.messages.observation import ObjectObservation
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
 from wire.model import Message
-from wire.site import Site, parse_site
+from wire.site import Site, SiteError, parse_site
 
 
 class Switchable(Message):
@@ -208,5 +208,5 @@ def test_a_card_with_another_id_than_its_process_is_refused(lift: ModuleType) ->
 
 
 def test_a_quadrupeds_process_drives_no_other_kind() -> None:
-    with pytest.raises(CannotRun, match="lift-1 is a lift in the site file: a quadruped is driven here"):
+    with pytest.raises(SiteError, match="lift-1 is a lift in the site file: a quadruped is driven here"):
         QuadrupedCore(_site_of_the_page(), "lift-1", open_journal())

@@ -52,7 +52,8 @@ class Presence:
 
 
 class CannotRun(Exception):
-    """A core, or its building, cannot go on; the text is one sentence with the remedy. Its process exits with 1."""
+    """A core, or its building, cannot go on; the text is one sentence with the remedy. Its process exits with 1,
+    and is restarted: it may be better by then."""
 
 
 Event = Received | Request | Reply | Presence

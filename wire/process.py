@@ -31,7 +31,7 @@ from wire.site import Site, SiteError, load_site
 log = logging.getLogger("process")
 
 Build = Callable[..., Core]
-"""build(site, process_id, **further arguments) -> Core"""
+"""build(site, process_id, **further arguments) -> Core; raises SiteError for what no restart mends, else CannotRun"""
 EXIT_FAULT, EXIT_USAGE, EXIT_BUG = 1, 2, 70
 SUPERVISED_VARIABLE = "R2X_SUPERVISED"
 """Set by a supervisor that leads its own session."""
@@ -82,10 +82,13 @@ def main(
         site = load_site(arguments.pop("site"))
         process = arguments.pop("id")
         process_role = role_of(site, process, role)
+        core = build(site, process, **arguments)
     except SiteError as error:
         stop_with(EXIT_USAGE, error)
+    except CannotRun as error:
+        stop_with(EXIT_FAULT, error)
     try:
-        run(site, process, process_role, build(site, process, **arguments), stopping)
+        run(site, process, process_role, core, stopping)
     except (CannotRun, MeshError, SiteError) as error:
         stop_with(EXIT_FAULT, error)
     sys.exit(0)

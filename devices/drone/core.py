@@ -10,7 +10,8 @@ from devices.drone.obstacles import Obstacles
 from devices.drone.pilot import Found, Land, News, NoLink, Pilot, Said
 from devices.drone.work import DroneWorker
 from devices.goals_journal import GoalsJournal
-from wire.bus import CannotRun, Event, Node, Received, Reply
+from devices.row import robot_row
+from wire.bus import Event, Node, Received, Reply
 from wire.messages.command import TrafficOrder
 from wire.messages.observation import EventLog
 from wire.messages.world import SnapshotRequest, WorldDelta, WorldState
@@ -29,11 +30,7 @@ class DroneCore:
     """See wire.bus.Core. `open_pilot` makes what flies this row of the site file."""
 
     def __init__(self, site: Site, id: str, journal: GoalsJournal, open_pilot: Callable[[Robot], Pilot]) -> None:
-        row = next((robot for robot in site.robot if robot.id == id), None)
-        if row is None:
-            raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
-        if row.kind != KIND:
-            raise CannotRun(f"robot {id} is a {row.kind} in the site file: a {KIND} is flown here, run its own module")
+        row = robot_row(site, id, KIND, "flown")
         self._id, self._journal = id, journal
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._pilot = open_pilot(row)

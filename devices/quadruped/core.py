@@ -10,8 +10,9 @@ from devices.quadruped.look import Eyes, Look
 from devices.quadruped.map import FloorMap
 from devices.quadruped.robot import Robot
 from devices.quadruped.work import QuadrupedWorker
+from devices.row import robot_row
 from devices.vision.pending import Pending
-from wire.bus import CannotRun, Event, Node, Received
+from wire.bus import Event, Node, Received
 from wire.messages.driver import CameraFrame
 from wire.messages.observation import ObservationBatch
 from wire.model import Message
@@ -26,11 +27,7 @@ class QuadrupedCore:
     """Without eyes it walks by its lidar and reports nothing that it sees."""
 
     def __init__(self, site: Site, id: str, journal: GoalsJournal, eyes: Eyes | None = None) -> None:
-        row = next((robot for robot in site.robot if robot.id == id), None)
-        if row is None:
-            raise CannotRun(f"the site has no robot {id}: add a [[robot]] table with this id to the site file")
-        if row.kind != KIND:
-            raise CannotRun(f"robot {id} is a {row.kind} in the site file: a {KIND} is driven here, run its own module")
+        row = robot_row(site, id, KIND, "driven")
         self._id = id
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._body = Body(id, FloorMap(site), sighted=eyes is not None)

@@ -29,10 +29,12 @@ class ViewCore:
         self._site = site
         self._rec = rec
         self._flyers = [robot.id for robot in site.robot if robot.kind == "drone"]
+        self._aboard: set[str] = set()
+        """Cameras of drones."""
         self._drawing = Drawing(rec, self._flyers)
         draw = self._drawing
         self._handlers: dict[type[Message], Callable[..., None]] = {
-            CameraFrame: draw.frame,
+            CameraFrame: self._frame,
             ObservationBatch: draw.observation,
             RobotReport: draw.report,
             WorldDelta: draw.world,
@@ -42,18 +44,27 @@ class ViewCore:
         }
 
     def start(self, node: Node) -> None:
-        xs = [x for room in self._site.room for x, _ in room.polygon_m]
-        ys = [y for room in self._site.room for _, y in room.polygon_m]
-        centre = ((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2)
-        span = max(max(xs) - min(xs), max(ys) - min(ys))
-        layout = blueprint(
-            [c.id for c in self._site.camera], [r.id for r in self._site.robot], centre, span, self._flyers
-        )
-        self._rec.send_blueprint(layout, make_active=True)
+        self._lay_out()
         draw_house(self._rec, self._site)
         for topic in _TOPICS:
             node.subscribe(topic)
         node.ask("snapshot", SnapshotRequest())
+
+    def _lay_out(self) -> None:
+        xs = [x for room in self._site.room for x, _ in room.polygon_m]
+        ys = [y for room in self._site.room for _, y in room.polygon_m]
+        centre = ((min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2)
+        span = max(max(xs) - min(xs), max(ys) - min(ys))
+        carried = [r.id for r in self._site.robot if r.id not in self._flyers] + sorted(self._aboard)
+        layout = blueprint([c.id for c in self._site.camera], carried, centre, span, flight=bool(self._flyers))
+        self._rec.send_blueprint(layout, make_active=True)
+
+    def _frame(self, frame: CameraFrame) -> None:
+        """What a drone's cameras are called is known when their first picture comes."""
+        self._drawing.frame(frame)
+        if frame.camera not in self._aboard and self._drawing.flies(frame.camera):
+            self._aboard.add(frame.camera)
+            self._lay_out()
 
     def step(self, now_s: float, events: Sequence[Event]) -> None:
         for event in events:

@@ -81,12 +81,12 @@ class Drawing:
             return
         self.at(frame.stamp_s)
         path = f"world/cameras/{frame.camera}/picture"
-        if frame.depth_mm is not None or self._flies(frame.camera):  # a camera that measures depth rides on a robot
+        if frame.depth_mm is not None or self.flies(frame.camera):  # a camera that measures depth rides on a robot
             self._place(frame, path)
         if self._news(path, frame.stamp_s, frame.jpeg):
             self._rec.log(path, rr.EncodedImage(contents=frame.jpeg, media_type="image/jpeg"))
 
-    def _flies(self, camera: str) -> bool:
+    def flies(self, camera: str) -> bool:
         """Whether a camera is one of a drone's: called like it, with a word of its own after that if it has several."""
         return any(camera == flyer or camera.startswith(f"{flyer}-") for flyer in self._flyers)
 
@@ -100,7 +100,7 @@ class Drawing:
             place_lens(self._rec, frame.camera, *lens, plane_m=0.4)
 
     def observation(self, batch: ObservationBatch) -> None:
-        boxes = [(o.box_px, f"{o.type} {o.confidence:.2f}") for o in batch.objects if o.box_px is not None]
+        boxes = [(o.box_px, o.type) for o in batch.objects if o.box_px is not None]
         self.at(batch.stamp_s)
         path = f"world/cameras/{batch.source}/picture/seen"
         if self._news(path, batch.stamp_s, boxes):

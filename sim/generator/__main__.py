@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 
 from sim.generator.home import make_home
-from sim.generator.site_file import Options, read_fault, write_site
+from sim.generator.site_file import MAVLINK_PORT, Options, read_fault, write_site
 from wire.site import parse_site
 
 
@@ -20,7 +20,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument(
         "--firmware", choices=("ardupilot", "px4"), default="ardupilot", help="of the drones' autopilots"
     )
-    parser.add_argument("--mavlink-port", type=int, default=14540, help="of the first drone")
+    parser.add_argument("--mavlink-port", type=int, default=MAVLINK_PORT, help="of the first drone")
     parser.add_argument("--spread", action="store_true", help="robots begin all over the home, not side by side")
     parser.add_argument("--no-cctv", dest="cctv", action="store_false", help="leave the fixed cameras out")
     parser.add_argument("--clock", choices=("lockstep", "wall"), default="lockstep")

@@ -8,6 +8,8 @@ from sim.scene import CctvPose, Door, Room, Scene, Wall
 Value = str | int | float | bool | tuple["Value", ...]
 
 
+MAVLINK_PORT = 14600
+"""Of the first drone. Not 14540 or 14550: any simulated autopilot on this computer sends there unasked."""
 DRONE_SPEED = 2.0
 """Clients of an autopilot have clocks of their own: with a drone in it, simulated time runs no faster than this."""
 
@@ -20,7 +22,7 @@ class Options:
     robots: int = 3
     drones: int = 0
     firmware: str = "ardupilot"
-    mavlink_port: int = 14540
+    mavlink_port: int = MAVLINK_PORT
     """Where the first drone looks for its autopilot, the next one at the next port."""
     spread: bool = False
     """Robots begin all over the home rather than side by side."""

@@ -46,3 +46,18 @@ def test_names_are_written_beside_each_other() -> None:
         picture._label("Television", (2.0, 2.0), 7, (60, 60, 60), 0.34)
     boxes = picture._taken
     assert all(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1] for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_a_long_title_takes_more_lines_and_hides_nothing(tmp_path: Path) -> None:
+    shapes = []
+    for name, title in (("short", "turn off the TV"), ("long", "put the apple in the fridge and " * 20)):
+        picture = FloorMap(flat())
+        picture.draw_house()
+        picture.draw_title(title)
+        picture.save(tmp_path / f"{name}.png")
+        shapes.append(cv2.imread(str(tmp_path / f"{name}.png")))
+    short, long = shapes
+    grown = long.shape[0] - short.shape[0]
+    assert grown > 50
+    assert (long[grown + 40 :] == short[40:]).all(), "the floor plan moved down as it was"
+    assert (long[: grown + 30, -8:] == 255).all(), "no letter reaches the edge"

@@ -12,13 +12,15 @@ from console.floor_map import FloorMap
 from console.mesh_commands import flight_text
 from console.operate_commands import why_text
 from hub.view.blueprint import blueprint
-from hub.view.core import open_recording
+from hub.view.core import ViewCore, open_recording
 from hub.view.drawing import Drawing
 from hub.view.flying import way_ahead
 from hub.why import why
 from tests.devices.drone.flat import flat as with_drone
 from tests.hub.test_flying_fleet import fleet, flying, walking
 from tests.hub.test_view import flat, frame
+from wire.bus import Received
+from wire.loopback import LoopbackMesh
 
 
 def printed(file: Path, *flyers: str) -> str:
@@ -46,6 +48,25 @@ def test_a_drone_is_drawn_as_one_with_its_camera_its_height_and_its_battery(tmp_
     assert "Pinhole" in text
 
 
+def test_each_camera_of_a_drone_gets_a_place_on_the_screen_once_it_has_sent_a_picture(tmp_path: Path) -> None:
+    file = tmp_path / "screen.rrd"
+    rec = open_recording(flat(save=str(file)))
+    core = ViewCore(with_drone(), rec)
+    mesh = LoopbackMesh(0.05)
+    mesh.add(core, "view", "view")
+    mesh.tick()
+    for camera in ("drone-1-down", "drone-1-left"):
+        picture = frame(0, b"jpeg").model_copy(update={"camera": camera})
+        core.step(0.0, [Received("camera_frame", camera, picture)])
+    mesh.close()
+    done = subprocess.run(
+        [sys.executable, "-m", "rerun_cli", "rrd", "print", "-vvv", str(file)], capture_output=True, text=True
+    )
+    for view in ("drone-1-down", "drone-1-left"):
+        assert f"[{view}]" in done.stdout, f"{view} has a place"
+    assert "[drone-1]" not in done.stdout
+
+
 def test_who_is_no_drone_is_drawn_as_before(tmp_path: Path) -> None:
     text = printed(tmp_path / "floor.rrd")
     assert "/world/robots/drone-1/body" in text
@@ -61,12 +82,12 @@ def test_a_way_is_drawn_at_its_height() -> None:
 
 
 def test_the_screen_has_a_plot_of_flight_only_where_somebody_flies() -> None:
-    def plots(flyers: tuple[str, ...]) -> int:
-        columns = blueprint(["cctv-1"], ["drone-1"], (0.0, 0.0), 5.0, flyers).root_container.contents
+    def plots(flight: bool) -> int:
+        columns = blueprint(["cctv-1"], ["drone-1-down"], (0.0, 0.0), 5.0, flight=flight).root_container.contents
         tabs = next(part for part in columns[2].contents if isinstance(part, rrb.Tabs))
         return len(tabs.contents)
 
-    assert plots(("drone-1",)) == plots(()) + 1
+    assert plots(True) == plots(False) + 1
 
 
 def test_the_floor_map_marks_a_drone_with_four_rotors(tmp_path: Path) -> None:

@@ -8,10 +8,10 @@ from planners.core import build
 from planners.planner import PLANNERS
 from tests.planners.test_tasks import furnished, hub_agrees
 from tests.planners.toy import site
-from wire.bus import CannotRun
 from wire.loopback import LoopbackMesh
 from wire.messages.goal import Goal, Selector
 from wire.messages.plan import PlanReply, PlanRequest
+from wire.site import SiteError
 
 
 @pytest.mark.parametrize("name", PLANNERS)
@@ -42,7 +42,7 @@ def test_the_scripted_planner_plans_it() -> None:
 
 
 def test_an_unknown_planner_is_named() -> None:
-    with pytest.raises(CannotRun, match="there is no planner 'oracle'"):
+    with pytest.raises(SiteError, match="there is no planner 'oracle'"):
         build(site(), "planner", "oracle")
 
 

@@ -82,7 +82,7 @@ def test_a_killed_hub_goes_on_and_repeats_no_finished_step(tmp_path: Path, monke
 
 def test_the_demo_succeeds_and_leaves_its_pictures_and_summary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(Path.cwd()))
-    summary = demonstrate(SEED, tmp_path, None, limit_s=200.0, keep=False, quiet=True)
+    summary = demonstrate(SEED, tmp_path, None, limit_s=300.0, keep=False, quiet=True, drones=1)
     assert json.loads((tmp_path / "summary.json").read_text()) == summary
     assert summary["success"], summary
     assert summary["tokens"] == 0

@@ -169,6 +169,11 @@ def test_a_second_mesh_that_fails_does_not_hide_the_first(tmp_path: Path, free_p
             assert done.returncode == 1
             assert json.loads(done.stdout)["ok"] is False
             assert "Traceback" not in done.stderr
+        for words in (("task",), ("tusk", "x"), ("up", "--seed", "x"), ("up", "--sed", "3"), ("down", "mini")):
+            done = _console(tmp_path, *words, "--json")
+            assert done.returncode == 2
+            assert "--help` tells more" in json.loads(done.stdout)["error"]
+            assert not done.stderr
     finally:
         done = _console(tmp_path, "down")
     assert "stopped 2 processes" in done.stdout
@@ -195,6 +200,8 @@ def test_seeds_and_homes_that_cannot_be_are_refused_in_one_sentence(tmp_path: Pa
         ("demo-seeds", "--seeds", "abc"),
         ("demo-seeds", "--seeds", "5-3"),
         ("up", "--seed", "-1"),
+        ("up", "--seed", "x"),
+        ("up", "--drones", "9"),
         ("up", "."),
         ("demo", "--out", "/proc/nowhere"),
         ("view",),
@@ -204,3 +211,4 @@ def test_seeds_and_homes_that_cannot_be_are_refused_in_one_sentence(tmp_path: Pa
         assert done.returncode != 0
         assert done.stderr.count("error: ") == 1, done.stderr
         assert "Traceback" not in done.stderr
+    assert not list((tmp_path / ".run").glob("home*")), "nothing is left of a home that cannot be"

@@ -27,7 +27,7 @@ def ended(folder: Path, build: str, id: str = "hub", secured: bool = False) -> t
     """Exit code and lines of log of a process whose core cannot be built, or whose arguments are wrong."""
     file = folder / "site.toml"
     file.write_text(SITE.replace("secured = false", f"secured = {str(secured).lower()}"))
-    code = f"from wire.bus import CannotRun\nfrom wire.process import main\n{build}\n"
+    code = f"from wire.bus import CannotRun\nfrom wire.process import main\nfrom wire.site import SiteError\n{build}\n"
     code += f"main(build, argv=['--site', {str(file)!r}, '--id', {id!r}])"
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=folder, env={"PYTHONPATH": str(ROOT)}, capture_output=True, text=True
@@ -44,6 +44,7 @@ def ended(folder: Path, build: str, id: str = "hub", secured: bool = False) -> t
             1,
             "no EGL here; install libegl1",
         ),
+        ("def build(site, id): raise SiteError('robot hub is a lift')", "hub", 2, "robot hub is a lift"),
         ("def build(site, id): ...", "hup", 2, "has no process 'hup'; its processes are hub"),
     ],
 )

@@ -10,10 +10,11 @@ from devices.drone.pilot import Land, NoLink, Said
 from devices.goals_journal import open_journal
 from tests.devices.drone.flat import flat
 from tests.devices.drone.scripted import ScriptedPilot
-from wire.bus import CannotRun, Event, Node, Received
+from wire.bus import Event, Node, Received
 from wire.loopback import LoopbackMesh
 from wire.messages.command import Command, RobotReport, TrafficOrder
 from wire.messages.observation import EventLog
+from wire.site import SiteError
 
 
 class Hub:
@@ -107,9 +108,9 @@ def test_a_process_that_is_stopped_lands_what_is_in_the_air():
 def test_another_kind_is_not_flown():
     site = flat()
     lift = replace_kind(site, "lift")
-    with pytest.raises(CannotRun, match="drone-1 is a lift in the site file: a drone is flown here"):
+    with pytest.raises(SiteError, match="drone-1 is a lift in the site file: a drone is flown here"):
         DroneCore(lift, "drone-1", open_journal(), lambda row: ScriptedPilot())
-    with pytest.raises(CannotRun, match="the site has no robot drone-2"):
+    with pytest.raises(SiteError, match="the site has no robot drone-2"):
         DroneCore(site, "drone-2", open_journal(), lambda row: ScriptedPilot())
 
 

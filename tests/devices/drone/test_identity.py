@@ -1,3 +1,5 @@
+"""What MAVSDK shows of a vehicle, bit by bit, and what is made of it."""
+
 import asyncio
 
 import pytest

@@ -78,8 +78,10 @@ def _home(conduct: Conduct, command: Command, now_s: float) -> Answer:
 
 
 def _region(conduct: Conduct, command: Command, now_s: float) -> Answer:
-    """DO_SET_ROI_LOCATION and DO_SET_ROI."""
+    """DO_SET_ROI_LOCATION and DO_SET_ROI. Where it is itself, which NaN means elsewhere, it cannot look."""
     now = conduct.now
+    if math.isnan(command.x) or math.isnan(command.y):
+        return Answer(Ack.DENIED, "Region of interest refused: it needs a place")
     found = place(
         0 if command.frame is None else command.frame, command.x, command.y, command.z, now.origin, now.home, now.here
     )

@@ -5,13 +5,12 @@ import time
 from console.bring_up import Ready
 from console.client import Client
 from console.task import RUNNING
+from devices.reporter import PROGRESS_S
 from wire.messages.command import Progress
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
 
 WORDS = "go round"
 LOOK_S = 0.2
-PROGRESS_HZ = 2.0
-"""Every robot that is at a goal tells this often how far it has come, in simulated time."""
 
 
 class Errands:
@@ -35,8 +34,8 @@ class Errands:
                     state = client.ask("task_query", TaskQuery(task=id), TaskState)
 
     def robots_at_work(self, simulated_s: float) -> float:
-        """How many had a goal, on average."""
-        return self._told / PROGRESS_HZ / simulated_s
+        """How many had a goal, on average: each of them tells of its progress at this period, in simulated time."""
+        return self._told * PROGRESS_S / simulated_s
 
     def _count(self, progress: Progress) -> None:
         self._told += 1

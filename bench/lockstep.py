@@ -41,7 +41,7 @@ def measure() -> dict[str, Any]:
         bare_ms = bare_tick_ms(followers)
         standing = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S)
         errands = Errands()
-        site_file.write_text(site_file.read_text().replace('module = "planners"', 'module = "bench.tour"'))
+        site_file.write_text(with_tours(site_file.read_text()))
         driving = pace(site_file, warm_up_s=1.0, measure_s=MEASURE_S, meanwhile=errands)
         bare_ms = (bare_ms + bare_tick_ms(followers)) / 2.0
     at_work = round(errands.robots_at_work(driving.simulated_s), 2)
@@ -93,6 +93,14 @@ def without_vision(toml: str) -> str:
         if 'module = "hub.view"' not in row
     ]
     return "[[process]]".join(rows)
+
+
+def with_tours(toml: str) -> str:
+    """A planner that sends robots from room to room, whatever is asked. Raises ValueError where there is none."""
+    planner = 'module = "planners"'
+    if planner not in toml:
+        raise ValueError(f"the generated site has no process with {planner}")
+    return toml.replace(planner, 'module = "bench.tour"')
 
 
 def main() -> None:

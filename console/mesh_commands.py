@@ -84,20 +84,13 @@ def status(json_: Json = False) -> None:
                 "pid": r.pid,
                 "up_s": r.up_s,
                 "announced": r.id in here,
-                **(
-                    {"height_m": round(f.position_enu_m[2], 2), "battery": f.battery} if (f := flyers.get(r.id)) else {}
-                ),
+                **flight_row(flyers.get(r.id)),
             }
             for r in rows
         ],
     }
-    emit(
-        document,
-        "\n".join(
-            _line(row, devices.get(row.id, ""), row.id in here) + flight_text(flyers.get(row.id)) for row in rows
-        ),
-        json_,
-    )
+    lines = (_line(r, devices.get(r.id, ""), r.id in here) + flight_text(flyers.get(r.id)) for r in rows)
+    emit(document, "\n".join(lines), json_)
 
 
 def device_names(site: Site) -> dict[str, str]:
@@ -128,6 +121,11 @@ def _flyers(mesh: Mesh, site: Site, here: set[str]) -> dict[str, RobotState]:
     return {robot.id: robot for robot in world.robots if robot.id in rows}
 
 
+def flight_row(flyer: RobotState | None) -> dict[str, float | None]:
+    """The same for programs; None where the battery is not told."""
+    return {} if flyer is None else {"height_m": round(flyer.position_enu_m[2], 2), "battery": flyer.battery}
+
+
 def flight_text(flyer: RobotState | None) -> str:
     """How high a drone is and how full, for the end of its line; empty for everything else."""
     if flyer is None:
@@ -135,7 +133,8 @@ def flight_text(flyer: RobotState | None) -> str:
     if flyer.status == "lost":
         return "  its autopilot is not heard"
     power = f"battery {flyer.battery:.0%}" if flyer.battery is not None else "battery not told"
-    return f"  {f'{flyer.position_enu_m[2]:.1f} m high' if flyer.airborne else 'on the floor'}, {power}"
+    height = f"{flyer.position_enu_m[2]:.1f} m high" if flyer.airborne else "on the floor"
+    return f"  {height}, {power}"
 
 
 def _line(row: ProcessInfo, device: str, announced: bool) -> str:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from wire.site import Site
 
+_TOPS = ("devices", "hub", "planners", "sim")
+
 
 def missing_modules(site: Site) -> str:
     """A sentence when this machine is to run a module that it does not have; else nothing."""
@@ -29,9 +31,17 @@ def _is_there(module: str) -> bool:
 
 def _meant(module: str) -> str:
     """The module of this name's kind that is nearest to it."""
-    known = [".".join(file.parent.parts) for top in _TOPS for file in sorted(Path(top).glob("**/__main__.py"))]
-    close = get_close_matches(module, known, n=1)
+    known = (name for top in _TOPS for folder in _folders(top) for name in _runnable(folder))
+    close = get_close_matches(module, sorted(known), n=1)
     return f"; is {close[0]} meant?" if close else "; make it, or correct `module` in the site file"
 
 
-_TOPS = ("devices", "hub", "planners", "sim")
+def _folders(package: str) -> list[str]:
+    found = find_spec(package)
+    return list(found.submodule_search_locations or ()) if found is not None else []
+
+
+def _runnable(folder: str) -> list[str]:
+    """The packages at and under a folder that `python -m` can run, wherever this is asked from."""
+    root = Path(folder).parent
+    return [".".join(file.parent.relative_to(root).parts) for file in Path(folder).glob("**/__main__.py")]

@@ -23,9 +23,15 @@ SEPARATION_M = 0.6
 AROUND_M = 0.08
 """A robot in the air drifts: this much is added to its body."""
 _MARGIN_M = 0.12
-_AHEAD_M, _COLUMN_AHEAD_M = 6.0, 2.6
+"""Left between two bodies, drift and all."""
+_AHEAD_M = 6.0
+"""Heights farther ahead on a way do not matter yet."""
+_COLUMN_AHEAD_M = 2.6
+"""Who is farther from a column on its way is not there before somebody has gone up or down in it."""
 _DOOR_M = 0.75
+"""Nearer to its middle one stands in a door."""
 _HOME_M = 0.4
+"""Who comes down as near as this to where it stood comes down there: good enough before, good enough now."""
 _FREE_MPS = 0.15
 """Faster up or down than this it is rising or sinking, which ends by itself."""
 

@@ -155,9 +155,8 @@ class Conductor:
             self._ledger.keep(task, now_s, "node", f"{step.node.id} {result.status}")
         else:
             task.run.end(step, "failed", now_s, result.reason)
-            text = f"{step.robot} could not {step.node.action} {step.node.object or step.node.room or ''}"
             counted = result.code not in _FREE_CODES
-            self.fail(f"{text}: {result.reason or result.code}", now_s, counted=counted)
+            self.fail(f"{step.robot} could not {step.deed}: {result.reason or result.code}", now_s, counted=counted)
 
     def _done(self, task: Task, step: Step, reason: str, now_s: float) -> None:
         if task.run is None:
@@ -167,7 +166,7 @@ class Conductor:
         for other in task.run.steps.values():
             if task.watch is not None and named & {other.node.object, other.node.item}:
                 task.watch.refresh(other)
-        task.say(now_s, f"{step.robot or 'nobody'}: {step.node.action} {step.node.object or step.node.room or ''} done")
+        task.say(now_s, f"{step.robot or 'nobody'}: {step.deed} done")
         body = f"{step.node.id} done"
         line = f"{body}: {step.robot or 'nobody'} {step.node.action} {_about(step, task.run)}"
         self._ledger.keep(task, now_s, "node", body, line=line, remember=True)

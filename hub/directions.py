@@ -12,12 +12,20 @@ from hub.things import Things
 from hub.traffic import Traffic
 from wire.messages.command import TrafficOrder
 from wire.model import Vec2
-from wire.site import Site
+from wire.site import UNDER_CEILING_M, Site
 
 _OTHERS_M = 4.0
-_UNDER_CEILING_M = 0.4
+"""Robots nearer than this are named to each other, to be kept clear of."""
 _TALL_M = 1.2
+"""Furniture up to here is flown over by the lowest of those who fly (`LOW_M`)."""
 _USUAL_M = 1.5
+"""The lowest level where the site file has no drone: one may be announced all the same."""
+_NEAR_M = 1.6
+"""The middle of a piece of furniture that reaches to a place is not farther off."""
+_HUNG_M = 1.0
+"""What begins higher hangs on a wall: who keeps clear of the wall keeps clear of it."""
+_FOOTPRINT = 0.85
+"""Of half a diagonal: a circle that stands for a rectangle, cut at its corners."""
 
 
 class Directions:
@@ -26,7 +34,7 @@ class Directions:
     def __init__(self, site: Site, floor: FloorPlan, things: Things) -> None:
         self._things = things
         lowest_m = min((row.flight_height_m for row in site.robot if row.kind == "drone"), default=_USUAL_M)
-        highest_m = min((room.height_m for room in site.room), default=0.0) - _UNDER_CEILING_M
+        highest_m = min((room.height_m for room in site.room), default=0.0) - UNDER_CEILING_M
         self._floor = Traffic(floor, self._blocked)
         self._air = Airspace(floor, levels(lowest_m, highest_m), self._tall, self._blocked)
         self._orders = 0
@@ -77,11 +85,12 @@ class Directions:
         return self._stands(point_m, radius_m, _TALL_M)
 
     def _stands(self, point_m: Vec2, radius_m: float, top_m: float) -> bool:
-        for thing in self._things.near(point_m[0], point_m[1], 1.6):
+        for thing in self._things.near(point_m[0], point_m[1], _NEAR_M):
             known = shape(thing.type)
-            if known.kind == "pickup" or thing.z - known.height_m / 2.0 > 1.0 or thing.z + known.height_m / 2.0 < top_m:
+            half_m = known.height_m / 2.0
+            if known.kind == "pickup" or thing.z - half_m > _HUNG_M or thing.z + half_m < top_m:
                 continue
-            if hypot(thing.x - point_m[0], thing.y - point_m[1]) < 0.85 * known.half_diagonal_m + radius_m:
+            if hypot(thing.x - point_m[0], thing.y - point_m[1]) < _FOOTPRINT * known.half_diagonal_m + radius_m:
                 return True
         return False
 
@@ -90,15 +99,15 @@ def _flyer(robot: Robot) -> Flyer:
     known = len(robot.path_heights_m) == len(robot.path_m)
     heights = robot.path_heights_m if known else (robot.position_m[2],) * len(robot.path_m)
     return Flyer(
-        robot.id,
-        robot.position_m,
-        tuple((x, y, z) for (x, y), z in zip(robot.path_m, heights, strict=True)),
-        robot.airborne,
-        robot.goal_id is not None,
-        robot.velocity_mps[2],
-        robot.home_m,
-        robot.radius_m,
-        known,
+        id=robot.id,
+        position_m=robot.position_m,
+        path_m=tuple((x, y, z) for (x, y), z in zip(robot.path_m, heights, strict=True)),
+        airborne=robot.airborne,
+        busy=robot.goal_id is not None,
+        climb_mps=robot.velocity_mps[2],
+        home_m=robot.home_m,
+        radius_m=robot.radius_m,
+        heights_known=known,
     )
 
 

@@ -6,13 +6,14 @@ from math import atan2, inf, pi
 from hub.assignment import FORBIDDEN, assign
 from hub.distance import Distances
 from hub.fleet import Robot
-from hub.floor import FloorPlan, centre
+from hub.floor import FloorPlan
 from hub.kinds import BLADES
 from hub.plan import PlanRun, Step
 from hub.things import Things
 from wire.frames import wrap_rad
 from wire.messages.plan import FROM_ABOVE
 from wire.model import Vec2, Vec3
+from wire.outline import mean_m
 
 _STOLEN_M = 6.0
 """A node that the planner gave to another robot costs this much more walking."""
@@ -136,8 +137,7 @@ class Dispatch:
             short = [(r.id, why) for r in able if (why := self.short_of_power(step, r))]
             if not short or len(short) < len(able):
                 return ""
-            about = step.node.object or step.node.room or ""
-            said += [f"{id} could not {step.node.action} {about}: {why}" for id, why in short]
+            said += [f"{id} could not {step.deed}: {why}" for id, why in short]
         return said[0] if said else ""
 
     def place(self, step: Step) -> Vec3 | None:
@@ -148,5 +148,5 @@ class Dispatch:
             return (thing.x, thing.y, thing.z)
         point: Vec2 | None = node.point_m
         if point is None and node.room is not None:
-            point = centre(self._floor.polygons[node.room])
+            point = mean_m(self._floor.polygons[node.room])
         return (point[0], point[1], 0.0) if point is not None else None

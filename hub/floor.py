@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from math import floor, hypot
 
 from wire.model import Vec2
-from wire.outline import inside
+from wire.outline import inside, segment_distance_m
 from wire.site import Site
 
 _CACHE_M = 0.1
@@ -64,20 +64,6 @@ def edge_distance_m(point_m: Vec2, polygon_m: tuple[Vec2, ...]) -> float:
     """Distance from a point to the nearest edge."""
     ends = (*polygon_m[1:], polygon_m[0])
     return min(segment_distance_m(point_m, a, b) for a, b in zip(polygon_m, ends, strict=True))
-
-
-def segment_distance_m(point_m: Vec2, start_m: Vec2, end_m: Vec2) -> float:
-    dx, dy = end_m[0] - start_m[0], end_m[1] - start_m[1]
-    length_2 = dx * dx + dy * dy
-    along = ((point_m[0] - start_m[0]) * dx + (point_m[1] - start_m[1]) * dy) / length_2 if length_2 else 0.0
-    along = min(max(along, 0.0), 1.0)
-    return hypot(point_m[0] - start_m[0] - along * dx, point_m[1] - start_m[1] - along * dy)
-
-
-def centre(polygon_m: tuple[Vec2, ...]) -> Vec2:
-    """A point in the middle of a polygon's corners."""
-    n = len(polygon_m)
-    return (sum(p[0] for p in polygon_m) / n, sum(p[1] for p in polygon_m) / n)
 
 
 def _doorway(id: str, rooms: tuple[str, str], start_m: Vec2, end_m: Vec2) -> Doorway:

@@ -20,6 +20,11 @@ class Step:
         self.started_s: float | None = None
         self.ended_s: float | None = None
 
+    @property
+    def deed(self) -> str:
+        """The action and what it is done to or where, as failures are told to planners: `open fridge-1`."""
+        return " ".join(filter(None, (self.node.action, self.node.object or self.node.room)))
+
     def state(self) -> NodeState:
         return NodeState(
             id=self.node.id,

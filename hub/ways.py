@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from math import hypot
 
-from hub.floor import segment_distance_m
 from wire.model import Vec2
+from wire.outline import segment_distance_m
 
 
 def cut(path_m: Sequence[Vec2], length_m: float) -> list[Vec2]:

@@ -11,6 +11,9 @@ from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
 from wire.site_faults import site_faults
 
+UNDER_CEILING_M = 0.4
+"""What flies stays so far below a ceiling."""
+
 
 class SiteError(ValueError):
     """The site file is wrong; the text names the place and the remedy."""

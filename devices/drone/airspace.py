@@ -2,16 +2,16 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import ceil, floor, hypot, inf, sqrt
+from math import ceil, floor, hypot, inf
 
 from wire.model import Vec2, Vec3
-from wire.outline import spans
-from wire.site import Door, Site, Wall
+from wire.outline import segment_distance_m, spans
+from wire.site import UNDER_CEILING_M, Door, Site, Wall
 
 CELL_M = 0.1
 NEEDED_M, WANTED_M = 0.35, 0.7
 """From the middle of the drone to a wall: at least, and where there is room."""
-UNDER_CEILING_M, UNDER_LINTEL_M = 0.4, 0.3
+UNDER_LINTEL_M = 0.3
 LEAST_HEIGHT_M = 0.4
 DOORWAY_M = 0.6
 """The drone is under a lintel this far from the middle line of a door."""
@@ -123,13 +123,16 @@ class Airspace:
     def _open(self, door: Door) -> None:
         """Low under the lintel; part of the building where the polygons of its rooms do not meet, too."""
         for cell in self._around(door.start_m, door.end_m, DOORWAY_M):
-            away_m, top_m = _to_door_m(door, self.centre_m(cell)), door.height_m - UNDER_LINTEL_M
+            away_m, top_m = (
+                segment_distance_m(self.centre_m(cell), door.start_m, door.end_m),
+                door.height_m - UNDER_LINTEL_M,
+            )
             if away_m < DOORWAY_M and (cell in self._top_m or away_m < DOORWAY_M / 2.0):
                 self._top_m[cell] = min(top_m, self._top_m.get(cell, top_m))
 
     def _keep_clear_of(self, wall: Wall) -> None:
         for cell in self._around(wall.start_m, wall.end_m, WANTED_M + wall.thickness_m):
-            away_m = to_segment_m(self.centre_m(cell), wall.start_m, wall.end_m) - wall.thickness_m / 2.0
+            away_m = segment_distance_m(self.centre_m(cell), wall.start_m, wall.end_m) - wall.thickness_m / 2.0
             if away_m < self._wall_m.get(cell, WANTED_M):
                 self._wall_m[cell] = away_m
 
@@ -137,20 +140,6 @@ class Airspace:
         west, south = self.cell((min(a_m[0], b_m[0]) - margin_m, min(a_m[1], b_m[1]) - margin_m))
         east, north = self.cell((max(a_m[0], b_m[0]) + margin_m, max(a_m[1], b_m[1]) + margin_m))
         return ((i, j) for i in range(west, east + 1) for j in range(south, north + 1))
-
-
-def to_segment_m(point_m: Vec2 | Vec3, a_m: Vec2, b_m: Vec2) -> float:
-    """Distance in the floor plane from a point to a straight piece."""
-    dx, dy = b_m[0] - a_m[0], b_m[1] - a_m[1]
-    px, py = point_m[0] - a_m[0], point_m[1] - a_m[1]
-    length2 = dx * dx + dy * dy
-    share = max(0.0, min(1.0, (px * dx + py * dy) / length2)) if length2 > 0.0 else 0.0
-    ox, oy = px - share * dx, py - share * dy
-    return sqrt(ox * ox + oy * oy)
-
-
-def _to_door_m(door: Door, point_m: Vec2 | Vec3) -> float:
-    return to_segment_m(point_m, door.start_m, door.end_m)
 
 
 def _touches(thing: Obstacle, point_m: Vec2 | Vec3) -> bool:

@@ -15,7 +15,8 @@ ACCEL_MPS2, BEND_MPS2 = 0.8, 0.8
 SAMPLE_M = 0.05
 LEG_M = 0.3
 """Control points along straight legs: a bend cuts its corner by a third of this at most."""
-LEAST_M = 1e-4
+LEAST_M, LEAST_MPS = 1e-4, 1e-4
+"""Points that coincide divide nothing by nought."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,7 @@ class Course:
         self._times = [0.0]
         for i, step_m in enumerate(self._steps_m):
             mean = (self._speeds[i] + self._speeds[i + 1]) / 2.0
-            self._times.append(self._times[-1] + step_m / max(mean, LEAST_M))
+            self._times.append(self._times[-1] + step_m / max(mean, LEAST_MPS))
         self.length_m, self.duration_s = sum(self._steps_m), self._times[-1]
 
     @property
@@ -77,7 +78,6 @@ class Course:
         """Speed at each sample: no faster than allowed there, and reached and left at the allowed acceleration."""
         count = len(self._points)
         speeds = [self._allowed(i, limits) for i in range(count)]
-        speeds[0] = speeds[-1] = 0.0
         for i in range(1, count):
             speeds[i] = min(speeds[i], sqrt(speeds[i - 1] ** 2 + 2.0 * ACCEL_MPS2 * self._steps_m[i - 1]))
         for i in range(count - 2, -1, -1):
@@ -85,6 +85,7 @@ class Course:
         return speeds
 
     def _allowed(self, i: int, limits: Limits) -> float:
+        """It stands at both ends."""
         if not 0 < i < len(self._points) - 1:
             return 0.0
         before, here, after = self._points[i - 1 : i + 2]

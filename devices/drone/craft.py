@@ -84,6 +84,7 @@ class Craft:
                 self._take(news)
             case Found():
                 self.found = news
+                self._give_up_asks()
             case Answered():
                 if (ask := self._asks.pop(news.order, None)) is not None:
                     ask.reason = news.reason
@@ -156,7 +157,7 @@ class Craft:
         if not isinstance(order, Shoot):
             self.moving, self.steered = not isinstance(order, Hover), isinstance(order, Steer)
         if isinstance(order, Steer):
-            self._other_mode_s = self.now_s
+            self._other_mode_s, self._landing = self.now_s, None
         return ask
 
     def fly(self, setpoint: Setpoint) -> None:
@@ -214,6 +215,12 @@ class Craft:
         if not telemetry.armed:
             self._landing, self.moving, self.steered = None, False, False
             self.home_m = telemetry.position_enu_m or self.home_m
+
+    def _give_up_asks(self) -> None:
+        """A link that was opened anew brings no answers to what was asked over the old one."""
+        for ask in self._asks.values():
+            ask.reason = "the link was lost before it answered"
+        self._asks.clear()
 
     def _count(self, here_m: Vec3) -> None:
         if self._counted_m is None:

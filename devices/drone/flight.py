@@ -4,7 +4,7 @@ They return None when all went well, and how the skill ends when not.
 """
 
 from collections.abc import Callable, Generator
-from math import dist, hypot
+from math import dist, hypot, inf
 
 from devices.drone.course import DEFAULT, Course, Limits, along_legs
 from devices.drone.craft import Craft
@@ -31,6 +31,8 @@ FACED_RAD = 0.08
 TURN_S = 10.0
 SIGHT_MPS = 0.2
 """Slower than this it is not turned into its way."""
+RIGHT_OVER_M = 0.2
+"""Nearer than this beside a point, its bearing turns with every drift."""
 LANDED_S, LANDING_REFUSED_S = 4.0, 10.0
 SPOT_SLACK_M = 0.3
 """As near as this to a place to land at is there."""
@@ -58,6 +60,10 @@ def unready(craft: Craft) -> Outcome | None:
         return failed("precondition", craft.found.fault)
     if not telemetry.located or telemetry.position_enu_m is None:
         return failed("precondition", f"the autopilot has no position estimate{craft.why()}")
+    if craft.space.top_m(craft.position_m) == -inf:
+        x, y, _ = craft.position_m
+        hint = "origin_enu_m and north_deg of the site file say how the autopilot's frame lies in the building"
+        return failed("precondition", f"it is at ({x:.1f}, {y:.1f}), outside the rooms of the site; {hint}")
     if telemetry.battery is not None and telemetry.battery < LEAST_BATTERY:
         least = f"{LEAST_BATTERY:.0%} is needed to begin"
         return failed("precondition", f"the battery is at {telemetry.battery:.0%}, {least}")
@@ -104,12 +110,18 @@ def get_up(craft: Craft, height_m: float) -> Trouble:
 
 
 def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
-    """To a place by a way that is clear of walls and goes through doors; up first where it stands on the ground."""
+    """To a place; up first where it stands on the ground."""
     if fault := craft.space.fault(goal_m):
         return failed("unreachable", fault)
     trouble = yield from get_up(craft, min(craft.cruise_m, craft.space.top_m(craft.position_m)))
-    if trouble is not None:
-        return trouble
+    return trouble or (yield from fly_to(craft, goal_m, facing, limits))
+
+
+def fly_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
+    """To a place by a way that is clear of walls and goes through doors.
+
+    For what is in the air: to go on, home or out of the way it needs no more battery than it has.
+    """
     start_m = craft.standing_m
     way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m, craft.level_m)
     if way is None:
@@ -132,21 +144,24 @@ def keep(position_m: Vec3, velocity_mps: Vec3) -> float | None:
 def towards(point_m: Vec2) -> Facing:
     """Facing a point."""
     return lambda position_m, velocity_mps: (
-        bearing_rad(position_m[:2], point_m) if dist(position_m[:2], point_m) > 0.2 else None
+        bearing_rad(position_m[:2], point_m) if dist(position_m[:2], point_m) > RIGHT_OVER_M else None
     )
 
 
 def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     """Along a course to its end. What interrupts it, it comes back from to where it had stopped."""
     follower = Follower(course, craft.now_s)
-    yaw_rad, stepped_s = craft.yaw_rad, craft.now_s
+    yaw_rad, stepped_s, begun = craft.yaw_rad, craft.now_s, False
     craft.action_steps += 1
     while not (craft.steered and follower.arrived(craft.position_m)):
         if not craft.steered:
-            trouble = yield from _take_up(craft, follower, yaw_rad)
+            follower.stand(craft.now_s)
+            trouble = (yield from _come_back(craft, follower.stop_m)) if begun else None
+            trouble = trouble or (yield from _take_up(craft, follower.stop_m, yaw_rad))
             if trouble is not None:
                 return trouble
-            yaw_rad, stepped_s = craft.yaw_rad, craft.now_s
+            follower.stand(craft.now_s)
+            yaw_rad, stepped_s, begun = craft.yaw_rad, craft.now_s, True
         position_m, velocity_mps = follower.step(craft.now_s, craft.position_m, craft.may_move)
         wanted_rad = facing(position_m, velocity_mps)
         if wanted_rad is not None:
@@ -157,9 +172,8 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
         _tell_path(craft, course, follower.clock_s)
         craft.fraction = follower.fraction
         yield
-        if craft.taken_over and craft.telemetry is not None:
-            mode = craft.telemetry.mode.lower().replace("_", " ")
-            return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
+        if craft.taken_over:
+            return _taken_over(craft)
         if follower.late_s > LATE_S:
             off_m = dist(craft.position_m, course.at(follower.clock_s)[0])
             return failed("blocked", f"does not get on: {off_m:.1f} m from where it should be{craft.why()}")
@@ -167,17 +181,27 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     return None
 
 
-def _take_up(craft: Craft, follower: Follower, yaw_rad: float) -> Trouble:
-    """Begin to steer, from where it stopped if it is there."""
-    follower.stand(craft.now_s)
-    if dist(craft.position_m, follower.stop_m) > OFF_COURSE_M:
-        trouble = yield from go_to(craft, follower.stop_m)
-        if trouble is not None:
-            return trouble
-    if reason := (yield from obey(craft, Steer(Setpoint(follower.stop_m, STILL, yaw_rad)))):
+def _taken_over(craft: Craft) -> Outcome:
+    mode = craft.telemetry.mode.lower().replace("_", " ") if craft.telemetry is not None else "another mode"
+    return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
+
+
+def _come_back(craft: Craft, where_m: Vec3) -> Trouble:
+    """What was led away meanwhile flies back by a way that is clear."""
+    return (yield from fly_to(craft, where_m)) if dist(craft.position_m, where_m) > OFF_COURSE_M else None
+
+
+def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
+    """Begin to steer there."""
+    if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, yaw_rad)))):
         return failed("driver", f"the autopilot takes no setpoints: {reason}")
-    follower.stand(craft.now_s)
     return None
+
+
+def face(craft: Craft, point_m: Vec2) -> Trouble:
+    """Turn to a point, unless it is right above or below."""
+    wanted_rad = towards(point_m)(craft.position_m, STILL)
+    return (yield from turn(craft, wanted_rad)) if wanted_rad is not None else None
 
 
 def turn(craft: Craft, wanted_rad: float) -> Trouble:
@@ -186,14 +210,18 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
     yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s
     while abs(wrap_rad(wanted_rad - craft.yaw_rad)) > FACED_RAD:
         if not craft.steered:
-            if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, craft.yaw_rad)))):
-                return failed("driver", f"the autopilot takes no setpoints: {reason}")
+            trouble = yield from _come_back(craft, where_m)
+            trouble = trouble or (yield from _take_up(craft, where_m, craft.yaw_rad))
+            if trouble is not None:
+                return trouble
             yaw_rad, stepped_s, begun_s = craft.yaw_rad, craft.now_s, craft.now_s
         yaw_rad = turned(yaw_rad, wanted_rad, min(craft.now_s - stepped_s, LONGEST_STEP_S))
         stepped_s = craft.now_s
         craft.fly(Setpoint(where_m, STILL, yaw_rad))
         craft.stop_m = where_m
         yield
+        if craft.taken_over:
+            return _taken_over(craft)
         if craft.now_s - begun_s > TURN_S:
             return failed("driver", f"does not turn{craft.why()}")
     return None
@@ -228,7 +256,7 @@ def _find_ground(craft: Craft) -> Trouble:
         goal_m = nearest_open(craft.space, (*spot_m, craft.position_m[2]), SPOT_SLACK_M) if spot_m is not None else None
         if goal_m is not None and dist(goal_m, craft.position_m) > SPOT_SLACK_M:
             craft.note = "flying to where it is free to land"
-            trouble = yield from go_to(craft, goal_m)
+            trouble = yield from fly_to(craft, goal_m)
             if trouble is not None:
                 return trouble
         else:

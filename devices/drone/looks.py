@@ -1,13 +1,14 @@
 """Skills that look: at a thing or a place from beside or above, all around it, over a whole room."""
 
 from collections.abc import Generator, Sequence
+from itertools import islice
 from math import ceil, dist, pi
 
 from pydantic import Field, model_validator
 
 from devices.drone.course import Course, Limits
 from devices.drone.craft import Craft
-from devices.drone.flight import failed, fly, go_to, keep, obey, towards, turn
+from devices.drone.flight import face, failed, fly, go_to, keep, obey, towards
 from devices.drone.moves import LEAST_M, MOST_M, Place, Skilled
 from devices.drone.pilot import Shoot
 from devices.drone.places import half_size_m, near_target, place_of, room_of
@@ -115,10 +116,9 @@ def orbit(craft: Craft, command: Command) -> Skilled:
         return failed("blocked", f"no room to fly around {name} at {params.radius_m:.1f} m: {fault}")
     craft.note = f"flying to {name}"
     trouble = yield from go_to(craft, course.points_m[0])
-    facing = towards(middle_m)
-    trouble = trouble or (yield from turn(craft, bearing_rad(craft.position_m[:2], middle_m)))
+    trouble = trouble or (yield from face(craft, middle_m))
     craft.note = f"flying around {name}"
-    trouble = trouble or (yield from fly(craft, course, facing))
+    trouble = trouble or (yield from fly(craft, course, towards(middle_m)))
     return trouble or Outcome("done", "ok", f"flew around {name}", craft.position_m)
 
 
@@ -126,15 +126,12 @@ def construct_map(craft: Craft, command: Command) -> Skilled:
     """Survey a room or a rectangle: fly over it in lanes at one height and take a picture at every station."""
     params = Survey.model_validate(_given(command))
     height_m = params.height_m or craft.row.flight_height_m
-    stations = [
-        point
-        for x, y in sweep(_ground(craft, params), params.spacing_m, WALL_M)[: MOST_STATIONS + 1]
-        if not craft.space.fault(point := (x, y, height_m))
-    ]
+    planned = list(islice(sweep(_ground(craft, params), params.spacing_m, WALL_M), MOST_STATIONS + 1))
+    if len(planned) > MOST_STATIONS:
+        return failed("precondition", f"more than {MOST_STATIONS} pictures; give a wider spacing_m")
+    stations = [point for x, y in planned if not craft.space.fault(point := (x, y, height_m))]
     if not stations:
         return failed("unreachable", f"there is nowhere in it to fly at {height_m:.1f} m")
-    if len(stations) > MOST_STATIONS:
-        return failed("precondition", f"more than {MOST_STATIONS} pictures; give a wider spacing_m")
     taken, why = 0, ""
     for number, station in enumerate(stations):
         craft.note = f"surveying: station {number + 1} of {len(stations)}"
@@ -193,8 +190,7 @@ def _see(craft: Craft, middle_m: Vec2, name: str, away_m: float, height_m: float
     if goal_m is None:
         return failed("unreachable", f"{name}: there is nowhere to see it from at {height_m:.1f} m")
     trouble = yield from go_to(craft, goal_m)
-    if trouble is None and dist(craft.position_m[:2], middle_m) > 0.3:
-        trouble = yield from turn(craft, bearing_rad(craft.position_m[:2], middle_m))
+    trouble = trouble or (yield from face(craft, middle_m))
     if trouble is not None:
         return Outcome(trouble.status, trouble.code, f"{name}: {trouble.reason}")
     taken, said = yield from _shoot(craft)

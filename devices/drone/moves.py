@@ -5,11 +5,10 @@ from math import radians
 
 from pydantic import Field, field_validator, model_validator
 
-from devices.drone.course import Course, Limits, along_legs
+from devices.drone.course import Course, Limits
 from devices.drone.craft import Craft
-from devices.drone.flight import ahead, come_down, failed, fly, get_up, go_to, towards, turn
+from devices.drone.flight import ahead, come_down, face, failed, fly, fly_to, get_up, go_to, turn
 from devices.drone.places import near_target, place_of
-from devices.drone.route import find_way
 from devices.drone.spline import through
 from devices.worker import Outcome
 from wire.messages.command import Command, Target
@@ -114,7 +113,7 @@ def goto(craft: Craft, command: Command) -> Skilled:
         return failed("unreachable", f"{name}: there is nowhere to hover near it at {height_m:.1f} m")
     trouble = yield from go_to(craft, goal_m)
     if trouble is None and command.target is not None:
-        trouble = yield from turn(craft, towards(middle_m)(craft.position_m, (0.0, 0.0, 0.0)) or craft.yaw_rad)
+        trouble = yield from face(craft, middle_m)
     if trouble is None and "yaw_deg" in command.params:
         trouble = yield from turn(craft, radians(float(command.params["yaw_deg"])))
     if trouble is not None:
@@ -132,9 +131,9 @@ def place_to_be(craft: Craft, command: Command, height_m: float) -> Vec3 | None:
 
 def follow_path(craft: Craft, command: Command) -> Skilled:
     """Fly a smooth curve through points, facing where it flies; each point is "east north height" in metres."""
-    points = way_points(str(command.params["way_m"]))
-    limits = Limits(speed_mps=float(command.params.get("speed_mps", 0.8)))
-    course = Course(through(points), limits)
+    params = Way.model_validate(command.params)
+    points = way_points(params.way_m)
+    course = Course(through(points), Limits(speed_mps=params.speed_mps))
     if fault := craft.space.first_fault(course.points_m):
         return failed("blocked", f"the curve through these points is blocked: {fault}")
     craft.note = "flying to the beginning of the path"
@@ -164,9 +163,6 @@ def return_home(craft: Craft, command: Command) -> Skilled:
         return failed("precondition", "it was in the air already when this process began, so home is not known")
     home_m = (*craft.home_m[:2], min(craft.cruise_m, craft.space.top_m(craft.home_m)))
     craft.note = "flying home"
-    way = yield from find_way(craft.space, craft.position_m, home_m, craft.row.flight_height_m, craft.level_m)
-    if way is None:
-        return failed("unreachable", "there is no way home that the drone fits through")
-    trouble = yield from fly(craft, Course(along_legs(way)), ahead)
+    trouble = yield from fly_to(craft, home_m)
     trouble = trouble or (yield from come_down(craft))
     return trouble or Outcome("done", "ok", "home, and landed", craft.position_m)

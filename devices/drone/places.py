@@ -8,6 +8,7 @@ from wire.catalogue import catalogue
 from wire.frames import bearing_rad, distance_m
 from wire.messages.command import Command
 from wire.model import Vec2, Vec3
+from wire.outline import mean_m
 from wire.site import Room
 
 BESIDE_M = 1.0
@@ -40,7 +41,7 @@ def middle_of(polygon_m: tuple[Vec2, ...]) -> Vec2:
         area, x, y = area + cross, x + (x1 + x2) * cross, y + (y1 + y2) * cross
         x1, y1 = x2, y2
     if abs(area) < 1e-9:
-        return (sum(p[0] for p in polygon_m) / len(polygon_m), sum(p[1] for p in polygon_m) / len(polygon_m))
+        return mean_m(polygon_m)
     return (x / (3.0 * area), y / (3.0 * area))
 
 

@@ -18,7 +18,8 @@ NEAR_WALL_PRICE = 2.0
 """So many times as dear is a step at the least distance from a wall."""
 START_FREE_M = 0.5
 """What stands around the start does not block the way out of it: the drone is there already."""
-SAME_HEIGHT_M = 0.05
+SAME_M = 0.05
+"""Corners nearer to each other than this are one."""
 CELLS_A_STEP = 1500
 """Some 15 ms of work."""
 Seeking = Generator[None, None, list[Point] | None]
@@ -139,7 +140,7 @@ def _between(a_m: Vec2, b_m: Vec2) -> Iterator[Vec2]:
 def _without_repeats(points_m: list[Vec3]) -> list[Vec3]:
     kept = [points_m[0]]
     for point in points_m[1:]:
-        if dist(point, kept[-1]) > SAME_HEIGHT_M:
+        if dist(point, kept[-1]) > SAME_M:
             kept.append(point)
     if kept[-1] != points_m[-1]:
         kept[-1:] = [points_m[-1]] if len(kept) > 1 else [kept[0], points_m[-1]]

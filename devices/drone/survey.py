@@ -1,17 +1,17 @@
 """The survey sweep: lanes to and fro over a polygon, with stations on them at which a picture is taken."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import ceil, cos, sin
 
 from wire.model import Vec2
 from wire.outline import spans
 
 
-def sweep(polygon_m: Sequence[Vec2], spacing_m: float, margin_m: float) -> list[Vec2]:
+def sweep(polygon_m: Sequence[Vec2], spacing_m: float, margin_m: float) -> Iterator[Vec2]:
     """Stations in the order in which they are flown over, at most `spacing_m` apart along a lane and from lane to lane.
 
     Lanes run along the polygon's longer side as its bounding box has it, `margin_m` from its edges; a polygon with
-    bays has several pieces in one lane. Empty when nothing of it is that far from its edges.
+    bays has several pieces in one lane. None when nothing of it is that far from its edges.
     """
     if spacing_m <= 0.0:
         raise ValueError(f"stations {spacing_m} m apart: give a distance above 0")
@@ -19,11 +19,10 @@ def sweep(polygon_m: Sequence[Vec2], spacing_m: float, margin_m: float) -> list[
     upright = max(ys) - min(ys) > max(xs) - min(xs)
     turned = [(y, x) if upright else (x, y) for x, y in polygon_m]
     low, high = min(p[1] for p in turned) + margin_m, max(p[1] for p in turned) - margin_m
-    stations: list[Vec2] = []
     for number, y in enumerate(_spread(low, high, spacing_m)):
         lane = [(x, y) for piece in _pieces(turned, y, margin_m) for x in _spread(*piece, spacing_m)]
-        stations += lane if number % 2 == 0 else lane[::-1]
-    return [(y, x) if upright else (x, y) for x, y in stations]
+        for x, _ in lane if number % 2 == 0 else lane[::-1]:
+            yield (y, x) if upright else (x, y)
 
 
 def ring(centre_m: Vec2, radius_m: float, from_rad: float, turn_rad: float, count: int) -> list[Vec2]:

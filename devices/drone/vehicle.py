@@ -77,16 +77,16 @@ class Vehicle:
     async def prepare(self, height_m: float) -> Found:
         """Who it is, and the settings without which it would behave as outdoors."""
         self._firmware, kind = await identify(self._system)
-        name = kind.name.lower().replace("_", " ")
-        fault = "" if kind == VehicleType.MULTICOPTER else f"the vehicle is a {name}, and only a multicopter hovers"
-        for name, setting in (
-            ("the rate of its positions", self._telemetry.set_rate_position_velocity_ned(STREAM_HZ)),
-            ("the rate of its attitude", self._telemetry.set_rate_attitude_euler(STREAM_HZ)),
-            ("its take-off height", self._action.set_takeoff_altitude(height_m)),
-            ("its return height", self._action.set_return_to_launch_altitude(height_m)),
+        body = _in_words(kind.name)
+        fault = "" if kind == VehicleType.MULTICOPTER else f"the vehicle is a {body}, and only a multicopter hovers"
+        for what, urgent, setting in (
+            ("the rate of its positions", False, self._telemetry.set_rate_position_velocity_ned(STREAM_HZ)),
+            ("the rate of its attitude", False, self._telemetry.set_rate_attitude_euler(STREAM_HZ)),
+            ("its take-off height", True, self._action.set_takeoff_altitude(height_m)),
+            ("its return height", True, self._action.set_return_to_launch_altitude(height_m)),
         ):
             if reason := await _reason(setting):
-                self._tell(Said(f"{name} could not be set: {reason}", urgent=name.endswith("height")))
+                self._tell(Said(f"{what} could not be set: {reason}", urgent))
         return Found(await self._system.get_system_id(), self._firmware, fault)
 
     def streams(self) -> list[Coroutine[Any, Any, None]]:
@@ -151,7 +151,7 @@ class Vehicle:
             answer = json.loads((await self._direct.send_command(message)).fields_json)
         except MavsdkError as error:
             return _words(error)
-        result = int(answer.get("result", 0))
+        result = answer.get("result")
         return ACKS.get(result, f"MAV_RESULT {result}")
 
     async def _steer(self, setpoint: Setpoint) -> str:
@@ -283,4 +283,9 @@ async def _reason(call: Awaitable[Any]) -> str:
 
 def _words(error: MavsdkError) -> str:
     result = getattr(error, "result", None)
-    return str(getattr(result, "name", result) or error).lower().replace("_", " ")
+    return _in_words(str(getattr(result, "name", result) or error))
+
+
+def _in_words(name: str) -> str:
+    """A name of MAVSDK's enumerations in a sentence."""
+    return name.lower().replace("_", " ")

@@ -2,8 +2,9 @@
 
 from math import dist
 
+from devices.drone.course import CRUISE_MPS
 from devices.drone.craft import Craft
-from devices.drone.flight import Trouble, go_to
+from devices.drone.flight import Trouble, fly_to
 from devices.drone.moves import Skilled
 from devices.drone.places import room_of
 from devices.drone.route import nearest_open
@@ -12,7 +13,7 @@ from devices.worker import Outcome, Pose
 from wire.messages.command import Command, DeviceCard
 from wire.model import Vec2
 
-RADIUS_M, SPEED_MPS = 0.3, 1.0
+RADIUS_M = 0.3
 LOW_BATTERY = 0.12
 """An idle drone lands with less; one at work is brought down by its autopilot's own failsafe."""
 ASIDE_AGAIN_M, ASIDE_SLACK_M = 0.3, 1.0
@@ -40,7 +41,7 @@ class DroneWorker:
             boot_id=boot_id,
             skills=tuple(skill.card() for skill in SKILLS.values()),
             radius_m=RADIUS_M,
-            speed_mps=SPEED_MPS,
+            speed_mps=CRUISE_MPS,
         )
 
     def fault_of(self, command: Command) -> str:
@@ -144,7 +145,7 @@ class DroneWorker:
         if self._aside_m is None or dist(wanted, self._aside_m) > ASIDE_AGAIN_M:
             goal_m = nearest_open(craft.space, (*wanted, craft.position_m[2]), ASIDE_SLACK_M)
             craft.hover()
-            self._aside_m, self._aside = wanted, go_to(craft, goal_m) if goal_m is not None else None
+            self._aside_m, self._aside = wanted, fly_to(craft, goal_m) if goal_m is not None else None
         if self._aside is not None and next(self._aside, THROUGH) is THROUGH:
             self._aside = None
             craft.hover()

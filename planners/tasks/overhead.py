@@ -17,28 +17,24 @@ def check_able(predicate: str, belief: Belief) -> None:
         return
     away = [robot.id for robot in belief.world.robots if skill in robot.skills]
     if away:
-        raise Impossible(f"only {' and '.join(away)} can look from above, and is not there now")
+        are = "is" if len(away) == 1 else "are"
+        raise Impossible(f"only {' and '.join(away)} can look from above, and {are} not there now")
     raise Impossible(f"no robot here can look from above: that takes a drone, or another that announces {skill}")
 
 
 def over_room(predicate: str, room: str, goal: int, centre_m: Vec2, belief: Belief) -> Job:
     """Hover above the middle of a room, or fly over all of it. Raises Impossible."""
-    action = OVERHEAD[predicate]
-    if room in belief.bans.rooms:
-        raise Impossible(f"{room} may not be entered")
-    _check_tried(action, room, belief)
-    return Job([Step(action, centre_m, room=room)], goal)
+    return _look(Step(OVERHEAD[predicate], centre_m, room=room), room, room, goal, belief)
 
 
 def over_thing(predicate: str, obj: ObjectState, goal: int, belief: Belief) -> Job:
     """Hover above a thing. Raises Impossible."""
-    action = OVERHEAD[predicate]
-    if obj.room in belief.bans.rooms:
-        raise Impossible(f"{obj.room} may not be entered")
-    _check_tried(action, obj.id, belief)
-    return Job([on(action, obj)], goal)
+    return _look(on(OVERHEAD[predicate], obj), obj.id, obj.room, goal, belief)
 
 
-def _check_tried(action: Action, id: str, belief: Belief) -> None:
-    if belief.failures.spent(action, id):
-        raise Impossible(belief.failures.last(id))
+def _look(step: Step, about: str, room: str | None, goal: int, belief: Belief) -> Job:
+    if room in belief.bans.rooms:
+        raise Impossible(f"{room} may not be entered")
+    if belief.failures.spent(step.action, about):
+        raise Impossible(belief.failures.last(about))
+    return Job([step], goal)

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from planners.tasks.belief import Belief
 from planners.tasks.priors import inside_prior, normalised
-from planners.tasks.travel import centre_m
 from planners.tasks.work import Impossible, Job, Step, on
 from wire.catalogue import type_row
 from wire.messages.world import AreaState, ObjectState
 from wire.model import Vec2
+from wire.outline import mean_m
 from wire.site import Site
 
 EVERY_INSIDE = 0.05
@@ -33,7 +33,7 @@ class Search:
 
     def __init__(self, site: Site, belief: Belief) -> None:
         self._belief = belief
-        self._centres: dict[str, Vec2] = {room.id: centre_m(room) for room in site.room}
+        self._centres: dict[str, Vec2] = {room.id: mean_m(room.polygon_m) for room in site.room}
 
     def jobs(self, wanted: list[Wanted]) -> tuple[list[Job], list[str]]:
         """Search jobs, and why some things are not looked for any more."""

@@ -4,6 +4,7 @@ from itertools import product
 from math import hypot, inf
 
 from wire.model import Vec2
+from wire.outline import inside, mean_m
 from wire.site import Room, Site
 
 SPEED_MPS = 0.5
@@ -42,9 +43,9 @@ class Travel:
     def room_at(self, point_m: Vec2) -> str | None:
         """The room around a point; the nearest one for a point in a wall."""
         if point_m not in self._at:
-            inside = next((room.id for room in self._rooms if _contains(room, point_m)), None)
-            nearest = min(self._rooms, key=lambda r: _straight_m(centre_m(r), point_m), default=None)
-            self._at[point_m] = inside or (nearest.id if nearest else None)
+            around = next((room.id for room in self._rooms if inside(point_m, room.polygon_m)), None)
+            nearest = min(self._rooms, key=lambda r: _straight_m(mean_m(r.polygon_m), point_m), default=None)
+            self._at[point_m] = around or (nearest.id if nearest else None)
         return self._at[point_m]
 
     def metres(self, start_m: Vec2, end_m: Vec2) -> float:
@@ -75,12 +76,6 @@ class Travel:
         self._at.clear()
 
 
-def centre_m(room: Room) -> Vec2:
-    """Mean of a room's corners."""
-    count = len(room.polygon_m)
-    return (sum(x for x, _ in room.polygon_m) / count, sum(y for _, y in room.polygon_m) / count)
-
-
 def area_m2(room: Room) -> float:
     corners = room.polygon_m
     pairs = zip(corners, corners[1:] + corners[:1], strict=True)
@@ -89,13 +84,3 @@ def area_m2(room: Room) -> float:
 
 def _straight_m(a_m: Vec2, b_m: Vec2) -> float:
     return hypot(a_m[0] - b_m[0], a_m[1] - b_m[1])
-
-
-def _contains(room: Room, point_m: Vec2) -> bool:
-    x, y = point_m
-    corners = room.polygon_m
-    inside = False
-    for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True):
-        if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
-            inside = not inside
-    return inside

@@ -17,7 +17,8 @@ def test_what_is_there_is_not_named(module: str) -> None:
     assert _site(module) == ""
 
 
-def test_a_typo_is_told_with_what_may_be_meant() -> None:
+def test_a_typo_is_told_with_what_may_be_meant(monkeypatch, tmp_path) -> None:
+    monkeypatch.chdir(tmp_path)
     assert _site("devices.quadrupde") == (
         "process dog-1: there is no module devices.quadrupde; is devices.quadruped meant?"
     )

@@ -6,6 +6,7 @@ from random import Random
 
 import numpy as np
 
+from tests.devices.rooms import building
 from wire.bus import Event, Node, Received, Reply
 from wire.messages.command import (
     CancelRequest,
@@ -24,30 +25,11 @@ Segment = tuple[float, float, float, float]
 
 
 def two_rooms(lost_hub_s: float = 2.0) -> Site:
-    """Two rooms of 4 x 4 m side by side, a door of 1 m between them at y = 2."""
-    walls = [
-        ((0.0, 0.0), (8.0, 0.0)),
-        ((0.0, 4.0), (8.0, 4.0)),
-        ((0.0, 0.0), (0.0, 4.0)),
-        ((8.0, 0.0), (8.0, 4.0)),
-        ((4.0, 0.0), (4.0, 1.5)),
-        ((4.0, 2.5), (4.0, 4.0)),
-    ]
-    rooms = [("west", 0.0), ("east", 4.0)]
+    """The two rooms of `tests.devices.rooms`, and a dog."""
     return parse_site(
         {
             "name": "two-rooms",
-            "room": [
-                {
-                    "id": id,
-                    "name": id,
-                    "kind": "LivingRoom",
-                    "polygon_m": [(x, 0.0), (x + 4.0, 0.0), (x + 4.0, 4.0), (x, 4.0)],
-                }
-                for id, x in rooms
-            ],
-            "wall": [{"start_m": a, "end_m": b} for a, b in walls],
-            "door": [{"id": "door-1", "rooms": ["west", "east"], "start_m": (4.0, 1.5), "end_m": (4.0, 2.5)}],
+            **building(("west", "LivingRoom"), ("east", "LivingRoom")),
             "robot": [{"id": "dog-1", "kind": "quadruped", "start_m": (1.0, 1.0), "lost_hub_s": lost_hub_s}],
             "process": [
                 {"id": "hub", "role": "hub", "module": "hub"},

@@ -12,9 +12,9 @@ from wire.messages.world import RobotState, RobotStatus, WorldState
 FLYING = ("take_off", "land", "goto", "inspect_from_above", "construct_map")
 
 
-def drone(status: RobotStatus = "idle") -> RobotState:
+def drone(status: RobotStatus = "idle", id: str = "drone-1") -> RobotState:
     return RobotState(
-        id="drone-1", kind="drone", position_enu_m=(4.0, 4.0, 0.0), yaw_deg=0.0, status=status, skills=FLYING,
+        id=id, kind="drone", position_enu_m=(4.0, 4.0, 0.0), yaw_deg=0.0, status=status, skills=FLYING,
         stamp_s=1.0, room="kitchen",
     )  # fmt: skip
 
@@ -77,6 +77,11 @@ def test_a_thing_that_is_not_known_is_looked_for_on_the_floor_first() -> None:
         ("survey the kitchen", (), "announces construct_map"),
         ("look at the bed from above", (), "no robot here can look from above"),
         ("inspect the kitchen from above", (drone("lost"),), "only drone-1 can look from above, and is not there now"),
+        (
+            "survey the kitchen",
+            (drone("lost"), drone("lost", "drone-2")),
+            "only drone-1 and drone-2 can look from above, and are not there now",
+        ),
     ],
 )
 def test_where_nobody_flies_it_is_refused_with_the_reason(instruction: str, robots, why: str) -> None:

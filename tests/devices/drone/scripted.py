@@ -38,7 +38,11 @@ class ScriptedPilot:
         self.refusals: dict[type[Order], str] = {}
         self.says = STANDING
         self.silent = False
+        self.deaf = False
+        """Orders do not reach the autopilot, and nobody answers."""
         self.picture = Pictured(7, True)
+        self.sinks_mps: float | None = None
+        """So fast it comes down when it is told to land; at once when it is None."""
         self._news: list[News] = [Found(1, "px4")]
 
     def start(self) -> None: ...
@@ -47,6 +51,8 @@ class ScriptedPilot:
 
     def ask(self, order: Order) -> int:
         self.orders.append(order)
+        if self.deaf:
+            return len(self.orders)
         refusal = self.refusals.get(type(order), "")
         if not refusal:
             self._do(order)
@@ -68,7 +74,20 @@ class ScriptedPilot:
 
     def news(self) -> list[News]:
         news, self._news = self._news, []
+        if self.says.landed == "landing":
+            self._sink()
         return [] if self.silent else [*news, self.says]
+
+    def _sink(self) -> None:
+        x, y, z = self.says.position_enu_m or (0.0, 0.0, 0.0)
+        lower_m = z - (self.sinks_mps or 0.0) * STEP_S
+        if lower_m > 0.0:
+            self.says = replace(self.says, position_enu_m=(x, y, lower_m))
+        else:
+            self._touch_down(x, y)
+
+    def _touch_down(self, x: float, y: float) -> None:
+        self.says = replace(self.says, position_enu_m=(x, y, 0.0), landed="on_ground", armed=False, mode="LAND")
 
     def _do(self, order: Order) -> None:
         x, y, z = self.says.position_enu_m or (0.0, 0.0, 0.0)
@@ -78,12 +97,14 @@ class ScriptedPilot:
             case TakeOff():
                 up_m = (x, y, z + order.height_m)
                 self.says = replace(self.says, position_enu_m=up_m, landed="in_air", mode="HOLD")
+            case Land() if self.sinks_mps is not None:
+                self.says = replace(self.says, landed="landing", mode="LAND")
             case Land():
-                self.says = replace(self.says, position_enu_m=(x, y, 0.0), landed="on_ground", armed=False, mode="LAND")
+                self._touch_down(x, y)
             case Steer():
-                self.says = replace(self.says, mode="OFFBOARD")
+                self.says = replace(self.says, mode="OFFBOARD", landed="in_air")
             case Hover():
-                self.says = replace(self.says, mode="HOLD", velocity_enu_mps=(0.0, 0.0, 0.0))
+                self.says = replace(self.says, mode="HOLD", landed="in_air", velocity_enu_mps=(0.0, 0.0, 0.0))
             case Shoot():
                 self.tell(self.picture)
 
@@ -136,3 +157,8 @@ class Flown:
                 self.worker.halt()
             else:
                 self.worker.idle(self.now_s)
+
+
+def kinds(flown: Flown) -> list[str]:
+    """The names of all orders that it was given."""
+    return [type(order).__name__ for order in flown.pilot.orders]

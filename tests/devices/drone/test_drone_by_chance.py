@@ -7,7 +7,7 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from devices.drone.pilot import Arm, Hover, Land, Order, Setpoint, Shoot, Steer, TakeOff
+from devices.drone.pilot import Arm, Found, Hover, Land, Order, Setpoint, Shoot, Steer, TakeOff
 from devices.worker import Outcome
 from tests.devices.drone.scripted import STEP_S, Flown
 from wire.messages.command import TrafficOrder
@@ -26,6 +26,15 @@ GOALS: tuple[tuple[str, dict[str, object]], ...] = (
     ("take_picture", {}),
 )
 REFUSABLE: tuple[type[Order], ...] = (Arm, TakeOff, Land, Steer, Hover, Shoot)
+ORDERS: tuple[dict[str, object], ...] = (
+    {"go": True},
+    {"go": False},
+    {"go": True, "step_aside_m": (1.0, 3.0)},
+    {"go": True, "step_aside_m": (7.0, 1.0)},
+    {"go": True, "column_taken": True},
+    {"go": True, "column_taken": True, "land_at_m": (3.0, 3.0)},
+    {"go": True, "height_m": 2.1},
+)
 happenings = st.one_of(
     st.tuples(st.just("goal"), st.sampled_from(GOALS)),
     st.tuples(st.just("cancel"), st.none()),
@@ -36,7 +45,10 @@ happenings = st.one_of(
     st.tuples(st.just("obey"), st.none()),
     st.tuples(st.just("mode"), st.sampled_from(("RETURN_TO_LAUNCH", "POSCTL", "HOLD"))),
     st.tuples(st.just("health"), st.sampled_from(({"located": False}, {"battery": 0.1}, {"battery": 0.9}))),
-    st.tuples(st.just("stand"), st.booleans()),
+    st.tuples(st.just("order"), st.sampled_from(ORDERS)),
+    st.tuples(st.just("sink"), st.sampled_from((None, 0.2))),
+    st.tuples(st.just("deaf"), st.booleans()),
+    st.tuples(st.just("link"), st.none()),
 )
 
 
@@ -69,12 +81,25 @@ class Watched(Flown):
             self._end(outcome)
 
     def happen(self, kind: str, what: Any) -> None:
+        """To the drone and its hub, or to its autopilot."""
         match kind:
             case "goal" if not self.goal:
                 self.begin(what[0], **what[1])
                 self.goal = True
             case "cancel" if self.goal:
                 self.drop()
+            case "order":
+                self.craft.order = TrafficOrder.model_validate({"robot": "drone-1", "seq": 1, "stamp_s": 1.0, **what})
+            case "time" | "no hub" | "silence":
+                self.pilot.silent = kind == "silence"
+                for _ in range(round(what / STEP_S)):
+                    self.step(hub=kind != "no hub")
+                self.pilot.silent = False
+            case _:
+                self._befall(kind, what)
+
+    def _befall(self, kind: str, what: Any) -> None:
+        match kind:
             case "refuse":
                 self.pilot.refusals[what] = "command denied"
             case "obey":
@@ -83,13 +108,12 @@ class Watched(Flown):
                 self.pilot.says = replace(self.pilot.says, mode=what)
             case "health":
                 self.pilot.says = replace(self.pilot.says, **what)
-            case "stand":
-                self.craft.order = TrafficOrder(robot="drone-1", seq=1, stamp_s=1.0, go=not what)
-            case "time" | "no hub" | "silence":
-                self.pilot.silent = kind == "silence"
-                for _ in range(round(what / STEP_S)):
-                    self.step(hub=kind != "no hub")
-                self.pilot.silent = False
+            case "sink":
+                self.pilot.sinks_mps = what
+            case "deaf":
+                self.pilot.deaf = what
+            case "link":
+                self.pilot.tell(Found(1, "px4"))
 
     def _check_speed(self, new: list[Setpoint]) -> None:
         if new and self.craft.telemetry is not None:
@@ -115,7 +139,25 @@ def test_it_stays_in_its_rooms_and_ends_in_hover(events):
         flown.happen(kind, what)
     if flown.goal:
         flown.drop()
+    flown.craft.order = None  # who is told to make way does so
     for _ in range(20):
         flown.step(hub=True)
     moving = [order for order in flown.pilot.orders if not isinstance(order, Shoot | Arm)]
     assert not moving or not isinstance(moving[-1], Steer) or flown.craft.flown_by_others or not flown.craft.airborne
+
+
+@settings(max_examples=60)
+@given(st.lists(happenings, min_size=1, max_size=14))
+def test_whatever_was_before_it_lands_when_all_is_well_again(events):
+    flown = Watched(land_after_s=5.0)
+    for kind, what in events:
+        flown.happen(kind, what)
+    if flown.goal:
+        flown.drop()
+    flown.craft.order, flown.pilot.deaf = None, False
+    flown.pilot.refusals.clear()
+    flown.pilot.tell(Found(1, "px4"))
+    flown.pilot.says = replace(flown.pilot.says, mode="HOLD", battery=0.9, located=True)
+    flown.tick()
+    assert flown.do("land").status == "done"
+    assert not flown.craft.airborne

@@ -4,19 +4,13 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist, hypot, pi
 
-import pytest
-
-from devices.drone.pilot import Arm, Found, Hover, Land, Pictured, Said, Shoot, Steer, TakeOff
+from devices.drone.pilot import Found, Hover, Land, Pictured, Said, Shoot, Steer, TakeOff
 from devices.drone.skills import SKILLS
-from tests.devices.drone.scripted import Flown
+from tests.devices.drone.scripted import Flown, kinds
 from wire.frames import bearing_rad
-from wire.messages.command import Command, Target, TrafficOrder
+from wire.messages.command import Target, TrafficOrder
 
 FRIDGE = Target(id="fridge-1", type="Fridge", position_enu_m=(7.0, 2.0, 0.9), spread_m=0.1)
-
-
-def kinds(flown: Flown) -> list[str]:
-    return [type(order).__name__ for order in flown.pilot.orders]
 
 
 def test_it_takes_off_flies_and_lands():
@@ -60,91 +54,6 @@ def test_a_flight_that_is_dropped_ends_in_hover_ahead_on_its_way():
     assert flown.worker.pose.path_m == ()
 
 
-@pytest.mark.parametrize(
-    ("says", "words"),
-    [
-        ({"located": False}, "no position estimate"),
-        ({"position_enu_m": None}, "no position estimate"),
-        ({"battery": 0.15}, "the battery is at 15%, 20% is needed to begin"),
-        ({"armable": False}, "does not let itself be armed: PreArm: no fix"),
-    ],
-)
-def test_it_says_why_it_cannot_begin(says, words):
-    flown = Flown()
-    flown.pilot.says = replace(flown.pilot.says, **says)
-    flown.begin("take_off")
-    flown.work(3.0)
-    flown.pilot.tell(Said("PreArm: no fix", urgent=True))
-    outcome = flown.work(10.0)
-    assert (outcome.status, outcome.code) == ("failed", "precondition")
-    assert words in outcome.reason
-    assert flown.pilot.orders == []
-
-
-def test_what_is_not_ready_yet_is_waited_for():
-    flown = Flown()
-    ready, flown.pilot.says = flown.pilot.says, replace(flown.pilot.says, located=False)
-    flown.begin("take_off")
-    assert flown.work(2.0) is None
-    flown.pilot.says = ready
-    assert flown.work(10.0).status == "done"
-
-
-def test_refusals_are_passed_on_with_what_the_autopilot_said():
-    flown = Flown()
-    flown.pilot.refusals[Arm] = "failed"
-    flown.pilot.tell(Said("Arm: throttle not down", urgent=True))
-    outcome = flown.do("take_off")
-    assert outcome.reason == "not armed: failed: Arm: throttle not down"
-    del flown.pilot.refusals[Arm]
-    flown.pilot.refusals[Steer] = "command denied"
-    assert "takes no setpoints: command denied" in flown.do("goto", point_m=(3.0, 3.0)).reason
-    assert kinds(flown)[-1] == "Hover"
-
-
-def test_what_cannot_hover_is_not_flown():
-    flown = Flown()
-    flown.pilot.tell(Found(1, "px4", "the vehicle is a fixed wing, and only a multicopter hovers"))
-    assert "fixed wing" in flown.do("take_off").reason
-
-
-@pytest.mark.parametrize(
-    ("action", "fields", "words"),
-    [
-        ("goto", {"point_m": (9.0, 1.0)}, "outside the rooms"),
-        ("goto", {"point_m": (2.0, 2.0), "params": {"height_m": 2.4}}, "too high"),
-        ("take_off", {"params": {"height_m": 2.3}}, "too high here: at most 2.1 m"),
-        ("follow_path", {"params": {"way_m": "1 1 1.5; 6 3.5 1.5"}}, "blocked"),
-        ("orbit", {"point_m": (3.5, 2.0), "params": {"radius_m": 1.5}}, "no room to fly around"),
-        ("hold", {}, "take off first"),
-    ],
-)
-def test_what_the_building_does_not_allow_is_not_begun(action, fields, words):
-    flown = Flown()
-    outcome = flown.do(action, **fields)
-    assert outcome.status == "failed"
-    assert words in outcome.reason
-    assert flown.pilot.orders == []
-
-
-@pytest.mark.parametrize(
-    ("action", "fields", "words"),
-    [
-        ("goto", {}, "exactly one of target, room and point_m"),
-        ("goto", {"room": "cellar"}, "there is no room cellar"),
-        ("follow_path", {"params": {"way_m": "1 1 1; 2 2"}}, "'2 2' is not three numbers"),
-        ("follow_path", {"params": {"way_m": "1 1 1"}}, "a way has 2 to 60"),
-        ("orbit", {"point_m": (1.0, 1.0), "params": {"turns": 0.0}}, "0 is no orbit"),
-        ("construct_map", {"params": {"west_m": 1.0}}, "give either room or all of"),
-        ("fetch", {}, "cannot fetch; it can take_off, land, goto"),
-    ],
-)
-def test_wrong_parameters_are_refused_with_a_sentence(action, fields, words):
-    given = {"epoch": 1, "robot": "drone-1", "valid_until_s": 1e6, "timeout_s": 60.0, **fields}
-    command = Command.model_validate({"goal_id": "g-1", "action": action, **given})
-    assert words in Flown().worker.fault_of(command)
-
-
 def test_a_path_is_flown_through_its_points():
     flown = Flown()
     points = [(1.0, 1.0, 1.2), (2.5, 1.0, 1.5), (3.0, 2.5, 1.8), (1.5, 3.0, 1.2)]
@@ -186,6 +95,14 @@ def test_a_survey_takes_a_picture_at_every_station():
     assert corner.reason == "4 of 4 pictures taken"
 
 
+def test_a_survey_of_too_many_stations_is_refused_however_few_can_be_flown_to():
+    flown = Flown()
+    much = {"west_m": -100.0, "south_m": 0.5, "width_m": 110.0, "depth_m": 3.0, "spacing_m": 0.5}
+    outcome = flown.do("construct_map", params=much)
+    assert (outcome.code, outcome.reason) == ("precondition", "more than 400 pictures; give a wider spacing_m")
+    assert flown.pilot.orders == []
+
+
 def test_a_camera_that_fails_is_told_of():
     flown = Flown()
     flown.pilot.refusals[Shoot] = "the vehicle has no camera on its link"
@@ -194,6 +111,16 @@ def test_a_camera_that_fails_is_told_of():
     del flown.pilot.refusals[Shoot]
     flown.pilot.picture = Pictured(8, False)
     assert flown.do("take_picture").reason == "the camera could not take the picture"
+
+
+def test_one_that_comes_along_fast_is_taken_up_where_it_can_stop():
+    flown = Flown()
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, velocity_enu_mps=(2.0, 0.0, 0.0), mode="RETURN_TO_LAUNCH")
+    flown.tick()
+    assert flown.do("goto", point_m=(3.0, 3.0)).status == "done"
+    taken_up = next(order for order in flown.pilot.orders if isinstance(order, Steer))
+    assert dist(taken_up.setpoint.position_enu_m, (3.0, 1.0, 1.5)) < 0.01
 
 
 def test_who_takes_over_is_left_alone():
@@ -208,6 +135,19 @@ def test_who_takes_over_is_left_alone():
     orders = len(flown.pilot.orders)
     flown.pause(5.0)
     assert len(flown.pilot.orders) == orders, "it flies home by itself"
+
+
+def test_who_takes_over_while_it_turns_is_left_alone_too():
+    flown = Flown()
+    flown.do("take_off")
+    flown.begin("goto", point_m=(1.0, 1.0), params={"yaw_deg": 180.0})
+    flown.work(1.5)
+    assert 0.1 < abs(flown.craft.yaw_rad) < 3.0
+    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")
+    outcome = flown.work(5.0)
+    assert outcome.code == "interrupted"
+    assert outcome.reason == "(1.0, 1.0): the autopilot has gone over to posctl"
+    assert kinds(flown)[-1] == "Steer"
 
 
 def test_traffic_makes_it_wait_and_step_aside():
@@ -275,6 +215,34 @@ def test_an_idle_drone_lands_before_its_battery_is_empty():
     flown.pause(1.0)
     assert isinstance(flown.pilot.orders[-1], Land)
     assert not flown.craft.airborne
+
+
+def test_a_landing_that_the_old_link_swallowed_is_asked_for_over_the_new_one():
+    flown = Flown()
+    flown.do("take_off")
+    flown.pilot.says = replace(flown.pilot.says, battery=0.1)
+    flown.pilot.deaf = True
+    flown.pause(4.0)
+    assert flown.craft.airborne
+    flown.pilot.deaf = False
+    flown.pilot.tell(Found(1, "px4"))
+    flown.pause(4.0)
+    assert kinds(flown).count("Land") == 2
+    assert not flown.craft.airborne
+
+
+def test_one_that_sinks_for_want_of_battery_comes_home_when_it_is_told_to():
+    flown = Flown()
+    flown.do("goto", point_m=(7.0, 3.0))
+    flown.pilot.sinks_mps = 0.1
+    flown.pilot.says = replace(flown.pilot.says, battery=0.1)
+    flown.pause(2.0)
+    assert kinds(flown)[-1] == "Land"
+    assert flown.craft.airborne
+    flown.pilot.sinks_mps = None
+    assert flown.do("return_home").reason == "home, and landed"
+    assert kinds(flown).count("Land") == 2
+    assert dist(flown.craft.position_m, (1.0, 1.0, 0.0)) < 0.2
 
 
 def test_a_person_at_the_sticks_is_not_landed_for_want_of_a_hub():

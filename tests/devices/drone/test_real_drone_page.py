@@ -3,14 +3,14 @@
 import re
 import tomllib
 
-from devices.drone.airspace import NEEDED_M, UNDER_CEILING_M, UNDER_LINTEL_M
+from devices.drone.airspace import NEEDED_M, UNDER_LINTEL_M
 from devices.drone.flight import LEAST_BATTERY
 from devices.drone.skills import SKILLS
 from devices.drone.work import LOW_BATTERY
 from tests.devices.drone.flat import flat
 from tests.pages import ROOT, blocks
 from wire.airlink import address_fault
-from wire.site import parse_site
+from wire.site import UNDER_CEILING_M, parse_site
 
 PAGE = "fly-a-real-drone.md"
 TEXT = (ROOT / "docs" / PAGE).read_text()

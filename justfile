@@ -101,7 +101,7 @@ record *args: install
 # a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
 [group('fly')]
 sitl *args: install
-    {{ python }} -m sim.sitl "$@"
+    exec {{ python }} -m sim.sitl "$@"
 
 # list the site files there are; `up NAME` starts one (--json)
 [group('sites')]

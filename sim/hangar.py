@@ -7,13 +7,11 @@ from sim.autopilot.firmware import Firmware
 from sim.autopilot.personality import PERSONALITIES
 from sim.bullet import STEP_S
 from sim.mavlink.endpoint import Aboard, Endpoint
-from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
+from sim.mavlink.links import LeavesMachine, Link, LinkError, TcpServer, UdpIn, UdpOut
 from sim.physics import Physics
+from sim.scene import ORIGIN
 from wire.bus import CannotRun
 from wire.site import Robot, Site
-
-ORIGIN = (47.397742, 8.545594, 488.0)
-"""Latitude, longitude and height above the sea of a site's origin: where PX4's own simulation stands."""
 
 
 class Hangar:
@@ -37,7 +35,8 @@ class Hangar:
                 )
             except LinkError as error:
                 self.close()
-                raise CannotRun(f"the autopilot of {robot.id}: {error}") from error
+                remedy = "; send it to a MAVLink router here instead" if isinstance(error, LeavesMachine) else ""
+                raise CannotRun(f"the autopilot of {robot.id}: {error}{remedy}") from error
             self._firmwares.append(firmware)
         physics.each_step.append(self._decide)
 

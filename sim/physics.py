@@ -13,7 +13,7 @@ from sim.bullet import GRAVITY_MPS2, STEP_S, add_floor, add_static_boxes, open_b
 from sim.flight.quadrotor import Quadrotor
 from sim.legs import legged_rover
 from sim.rover import Rover, one_body_rover
-from sim.scene import Body, Scene, Vec2, Vec3
+from sim.scene import ORIGIN, Body, Scene, Vec2, Vec3
 from wire.catalogue import catalogue
 
 RAY, STATIC, FLOOR, LOOSE = 1, 2, 4, 8
@@ -103,7 +103,8 @@ class Physics:
         if FIRST_ROBOT << index > EVERYTHING:
             raise ValueError(f"{start.id}: one world holds eleven robots and drones, no more")
         place = (*start.position_m, 0.0)
-        return Quadrotor(self.bullet, start.id, place, start.yaw_rad, seed, FIRST_ROBOT << index, EVERYTHING)
+        group, altitude_m = FIRST_ROBOT << index, ORIGIN[2]
+        return Quadrotor(self.bullet, start.id, place, start.yaw_rad, seed, group, EVERYTHING, altitude_m=altitude_m)
 
     # Time
 

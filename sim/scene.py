@@ -10,6 +10,9 @@ Vec2 = tuple[float, float]
 Vec3 = tuple[float, float, float]
 Rgb = tuple[float, float, float]
 
+ORIGIN = (47.397742, 8.545594, 488.0)
+"""Latitude, longitude and height above the sea of a site's origin: where PX4's own simulation stands."""
+
 Shape = Literal["box", "cylinder", "sphere", "cone"]
 
 

@@ -17,7 +17,7 @@ from sim.bullet import STEP_S, add_floor, open_bullet
 from sim.flight.quadrotor import Quadrotor
 from sim.generator.home import make_home
 from sim.mavlink.endpoint import Aboard, Endpoint
-from sim.mavlink.links import Link, LinkError, TcpServer, UdpIn, UdpOut
+from sim.mavlink.links import LeavesMachine, Link, LinkError, TcpServer, UdpIn, UdpOut
 from sim.mavlink.peer import Signing
 from sim.physics import EVERYTHING, FIRST_ROBOT, FLOOR, Physics
 from sim.sitl_options import Options, parse
@@ -132,10 +132,12 @@ class Sitl:
         where = "a bare floor" if options.house is None else f"home {options.house}"
         ids = "system id 1" if options.vehicles == 1 else f"system ids 1 to {options.vehicles}"
         latitude, longitude, altitude_m, _ = options.home
+        fixed = f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; position also as a GPS fix"
         lines = [
             f"{options.vehicles} x {PERSONALITIES[options.firmware].banner}, {ids}, over {where}",
-            f"origin {latitude:.6f}, {longitude:.6f}, {altitude_m:g} m; "
-            + ("position also as a GPS fix" if options.gps == "fused" else "no GPS: local or external position only"),
+            fixed
+            if options.gps == "fused"
+            else "no GPS: no position until a client sends poses, no origin until it sets one",
         ]
         here = "127.0.0.1" if ipaddress.ip_address(options.bind).is_unspecified else options.bind
         for link in self.links:
@@ -173,7 +175,8 @@ def main(argv: list[str] | None = None) -> int:
     try:
         sitl = Sitl(options)
     except LinkError as error:
-        sys.stderr.write(f"error: {error}\n")
+        remedy = ": add --bind ADDRESS, its own there" if isinstance(error, LeavesMachine) else ""
+        sys.stderr.write(f"error: {error}{remedy}\n")
         return 1
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, sitl.stop)

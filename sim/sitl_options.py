@@ -3,11 +3,14 @@
 import argparse
 import ipaddress
 import math
+import sys
 from dataclasses import dataclass
 from typing import Literal, cast
 
+from sim.scene import ORIGIN
+
 MOST_VEHICLES = 10
-ZURICH = (47.397742, 8.545594, 488.0, 0.0)
+ZURICH = (*ORIGIN, 0.0)
 ARDUPILOT_TCP = 5760
 GROUND_STATION = ("127.0.0.1", 14550)
 OFFBOARD = ("127.0.0.1", 14540)
@@ -49,7 +52,8 @@ def _address(text: str) -> tuple[str, int]:
     return host, number
 
 
-def _count(text: str) -> int:
+def vehicle_count(text: str) -> int:
+    """How many one world can hold, from an argument."""
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= MOST_VEHICLES:
         raise argparse.ArgumentTypeError(f"{text!r}: give 1 to {MOST_VEHICLES}")
     return int(text)
@@ -69,8 +73,9 @@ def _home(text: str) -> tuple[float, float, float, float]:
     if len(numbers) != 4 or not all(map(math.isfinite, numbers)):
         raise argparse.ArgumentTypeError(f"{text!r}: give LAT,LON,ALT,YAW, as 47.397742,8.545594,488,0")
     latitude, longitude, altitude_m, yaw = numbers
-    if abs(latitude) >= 89.9 or abs(longitude) > 180 or abs(altitude_m) >= 10_000:
-        raise argparse.ArgumentTypeError(f"{text!r}: degrees within +-89.9 and +-180, metres within +-10000")
+    if abs(latitude) >= 89.9 or abs(longitude) > 180 or abs(altitude_m) >= 10_000 or abs(yaw) > 360:
+        wide = "degrees within +-89.9, +-180 and +-360, metres within +-10000"
+        raise argparse.ArgumentTypeError(f"{text!r}: {wide}")
     return latitude, longitude, altitude_m, yaw
 
 
@@ -100,6 +105,17 @@ def _bind(text: str) -> str:
         raise argparse.ArgumentTypeError(f"{text!r}: give an IPv4 address of this machine, as 192.168.1.20") from error
 
 
+def _joined(argv: list[str]) -> list[str]:
+    """A home in the south begins with a minus, which would be read as an option's name."""
+    joined: list[str] = []
+    for word in argv:
+        if joined and joined[-1] == "--home" and word.startswith("-") and not word.startswith("--"):
+            joined[-1] = f"--home={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
 def parse(argv: list[str] | None) -> Options:
     """Ends the program with status 2 and one sentence when something is wrong."""
     parser = argparse.ArgumentParser(
@@ -111,7 +127,7 @@ def parse(argv: list[str] | None) -> Options:
     add("--tcp", type=_port, action="append", default=[], metavar="PORT", help=f"serve TCP clients; {links}")
     add("--udp-out", type=_address, action="append", default=[], metavar="HOST:PORT", help="send there unasked")
     add("--udp-in", type=_port, action="append", default=[], metavar="PORT", help="answer whoever sends here")
-    add("--vehicles", type=_count, default=1, metavar="N", help="how many, with system ids from 1")
+    add("--vehicles", type=vehicle_count, default=1, metavar="N", help="how many, with system ids from 1")
     add("--gps", choices=("fused", "none"), default="fused", help="indoor position as a GPS fix, or none at all")
     add("--home", type=_home, default=None, metavar="LAT,LON,ALT,YAW", help="where the origin lies (Zurich)")
     add("--seed", type=_seed, default=0, metavar="N", help="of the sensors' noise")
@@ -126,7 +142,7 @@ def parse(argv: list[str] | None) -> Options:
         metavar="ADDRESS",
         help="this machine's address there lets other machines in (127.0.0.1)",
     )
-    given = parser.parse_args(argv)
+    given = parser.parse_args(_joined(sys.argv[1:] if argv is None else argv))
     tcp, udp_out = tuple(given.tcp), tuple(given.udp_out)
     if not (tcp or udp_out or given.udp_in):
         ardupilot = given.firmware == "ardupilot"

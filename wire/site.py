@@ -77,7 +77,7 @@ class Robot(Message):
     """Where a drone flies when nobody says how high."""
     origin_enu_m: Vec3 = (0.0, 0.0, 0.0)
     """Where the local frame of a drone's autopilot has its origin."""
-    north_deg: float = 90.0
+    north_deg: float = Field(default=90.0, ge=-360.0, le=360.0)
     """Where that frame's north points: 90 when the site's y axis does."""
 
 

@@ -58,6 +58,10 @@ def _bad_ports(site: "Site") -> Iterator[str]:
     router = int(site.router.endpoint.rpartition(":")[2])
     if not 0 < router < 65536:
         yield f"router.endpoint: {router} is no port; give 1 to 65535"
+    for number, station in enumerate(site.sim.mavlink_out if site.sim is not None else ()):
+        port = int(station.rpartition(":")[2])
+        if not 0 < port < 65536:
+            yield f"sim.mavlink_out.{number}: {port} is no port; give 1 to 65535"
     ports = {"router.endpoint": router, "view.grpc_port": site.view.grpc_port, "view.web_port": site.view.web_port}
     counts = Counter(ports.values())
     shared = [place for place, port in ports.items() if counts[port] > 1]
@@ -75,6 +79,10 @@ def _bad_links(site: "Site") -> Iterator[str]:
     for number, robot in enumerate(site.robot):
         if fault := link_fault(robot.id, robot.kind, robot.link):
             yield f"robot.{number}.link: {fault}"
+    rows = Counter(robot.link for robot in site.robot if robot.link is not None)
+    for link, count in rows.items():
+        if count > 1:
+            yield f"robot: the link {link} stands there {count} times, give each drone its own"
 
 
 def _vain_faults(site: "Site") -> Iterator[str]:

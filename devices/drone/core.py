@@ -1,6 +1,8 @@
 """A drone's process without its shell: the device that takes goals, the pilot that flies them."""
 
+import logging
 from collections.abc import Callable, Sequence
+from math import inf
 
 from devices.device import Device
 from devices.drone.airspace import Airspace
@@ -17,9 +19,11 @@ from wire.messages.world import SnapshotRequest, WorldDelta, WorldState
 from wire.model import Message
 from wire.site import Robot, Site
 
+log = logging.getLogger("drone")
 KIND = "drone"
 CONTROL_S = 0.05
 EARLY_S = 1e-6
+FIRST_S = 5.0
 WORLD_S = 30.0
 """So often the whole world is asked for: what changed while the hub was away was missed."""
 
@@ -39,6 +43,8 @@ class DroneCore:
         self._device = Device(id, DroneWorker(self.craft), journal, row.lost_hub_s)
         self._control_due_s = self._ask_due_s = 0.0
         self._lines, self._lost, self._said = 0, True, ""
+        self._missed_s: float | None = None
+        """When it is told that there has been no autopilot from the start; infinite once that is settled."""
 
     def start(self, node: Node) -> None:
         self._node = node
@@ -96,11 +102,18 @@ class DroneCore:
             self._lost = self.craft.lost
             link = self.craft.row.link
             self._tell(f"the autopilot at {link} is {'not heard any more' if self._lost else 'heard'}")
+            self._missed_s = inf
+        elif self._missed_s is None:
+            self._missed_s = self.craft.now_s + FIRST_S
+        elif self.craft.now_s >= self._missed_s:
+            self._missed_s = inf
+            self._tell(f"no autopilot is heard at {self.craft.row.link} yet")
 
     def _tell(self, text: str) -> None:
         if text == self._said:
             return
         self._said = text
+        log.info("%s", text)
         line = EventLog(source=self._id, seq=self._lines, stamp_s=self.craft.now_s, text=text[:2000])
         self._lines += 1
         self._node.publish("event", line, self._id)

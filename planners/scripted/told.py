@@ -24,6 +24,8 @@ _FROM_ABOVE = re.compile(
     r"(?P<robot>[a-z0-9-]+ *[:,] *)?(?:inspect|check|look at|view|see|photograph) +(?P<place>.+?) +from +above\b(?P<rest>.*)",
     re.I | re.S,
 )
+_FOR_GOALS = KNOWN_ACTIONS - {"goto"}
+"""Left to goals. No goal says where a robot shall be."""
 _FROM_ABOVE_SKILL = "inspect_from_above"
 _PARAMETER = re.compile(r"\b([A-Za-z]\w{0,31})=(\S+)")
 
@@ -39,10 +41,10 @@ def read_told(request: PlanRequest, planner: str) -> Plan | None:
         return None
     name = told["skill"].lower()
     card = next((card for card in request.skills if card.name == name), None)
-    if name in KNOWN_ACTIONS or (card is None and "_" not in name):
+    if name in _FOR_GOALS or (card is None and "_" not in name):
         return None
     if card is None:
-        others = sorted({c.name for c in request.skills} - KNOWN_ACTIONS)
+        others = sorted({c.name for c in request.skills} - _FOR_GOALS)
         raise Unclear(f"no robot here announces the skill {name}; asked for by name can be {_listed(others)}", name)
     vain = [sentence for sentence in request.failures if name in sentence]
     if len(vain) >= GIVE_UP:

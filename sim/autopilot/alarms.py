@@ -43,6 +43,14 @@ class Watch:
     critical: bool = False
     emergency: bool = False
     breach: str = ""
+    breaches: int = 0
+    breached_s: float = 0.0
+
+    def fence(self, breach: str, now_s: float) -> None:
+        """What of the fence is crossed at this moment, or nothing."""
+        if breach and not self.breach:
+            self.breaches, self.breached_s = self.breaches + 1, now_s
+        self.breach = breach
 
 
 _N, _W, _H, _R, _L, _T = Action

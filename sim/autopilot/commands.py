@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from sim.autopilot import orders
-from sim.autopilot.arming import FORCE
+from sim.autopilot.arming import FORCE, reasons
 from sim.autopilot.conduct import Conduct
 from sim.autopilot.geo import place
 from sim.autopilot.interface import Ack, Answer, Command, Severity
@@ -25,6 +25,15 @@ def _arm(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(now.row.refused, "Disarming refused: it is not on the ground")
     if now.armed:
         conduct.disarm("Killed" if now.flying else "Disarmed", now_s)
+    return _ACCEPTED
+
+
+def _check(conduct: Conduct, command: Command, now_s: float) -> Answer:
+    """RUN_PREARM_CHECKS: every reason against arming is said."""
+    if conduct.now.armed:
+        return Answer(Ack.TEMPORARILY_REJECTED, "Checks refused: it is armed")
+    for reason in reasons(conduct.now, conduct.failsafes.watch):
+        conduct.now.say(Severity.WARNING, f"PreArm: {reason}")
     return _ACCEPTED
 
 
@@ -69,8 +78,10 @@ def _home(conduct: Conduct, command: Command, now_s: float) -> Answer:
 
 
 def _region(conduct: Conduct, command: Command, now_s: float) -> Answer:
-    """DO_SET_ROI_LOCATION and DO_SET_ROI."""
+    """DO_SET_ROI_LOCATION and DO_SET_ROI. Where it is itself, which NaN means elsewhere, it cannot look."""
     now = conduct.now
+    if math.isnan(command.x) or math.isnan(command.y):
+        return Answer(Ack.DENIED, "Region of interest refused: it needs a place")
     found = place(
         0 if command.frame is None else command.frame, command.x, command.y, command.z, now.origin, now.home, now.here
     )
@@ -166,5 +177,6 @@ COMMANDS: dict[int, Callable[[Conduct, Command, float], Answer]] = {
     252: orders.override,
     300: orders.start_mission,
     400: _arm,
+    401: _check,
     420: _fail,
 }

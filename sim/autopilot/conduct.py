@@ -82,7 +82,7 @@ class Conduct:
         now, watch = self.now, self.failsafes.watch
         if now.home_ned_m is None and now.located:
             self.home_here()
-        watch.breach = breach(now, self.plans.fence) if now.located else ""
+        watch.fence(breach(now, self.plans.fence) if now.located else "", now_s)
         action = self.failsafes.look(now, now_s)
         if action is Action.TERMINATE:
             self.disarm("Flight terminated", now_s)
@@ -201,7 +201,12 @@ class Conduct:
     def set_mode(self, base_mode: int, custom_mode: int, now_s: float) -> Answer:
         mode = self.now.row.mode(custom_mode)
         if not base_mode & 1 or mode is None:
-            return Answer(self.now.row.unknown_mode, f"There is no mode {custom_mode}")
+            what = (
+                f"There is no mode {self.now.row.numbers(custom_mode)}"
+                if mode is None
+                else "Only custom modes are known"
+            )
+            return Answer(self.now.row.unknown_mode, what)
         return self.choose(mode, now_s, custom_mode)
 
     # Arming

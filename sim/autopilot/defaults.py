@@ -1,4 +1,4 @@
-"""The parameters of each firmware, named and ranged as theirs; speeds, heights and radii are set for indoors."""
+"""The parameters of each firmware, named, typed and ranged as theirs; speeds, heights and radii are set for indoors."""
 
 from sim.autopilot.interface import Param
 
@@ -29,10 +29,10 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _real("BATT_ARM_VOLT", 14.2, 0, 60),
     _real("BATT_LOW_VOLT", 14.0, 0, 60),  # 0: off
     _real("BATT_CRT_VOLT", 13.6, 0, 60),
-    _real("BATT_LOW_TIMER", 10, 0, 120),
+    _whole("BATT_LOW_TIMER", 10, 0, 120),
     _whole("BATT_FS_LOW_ACT", 2, 0, 7),  # 0 none, 1 land, 2 return, 3, 4 smart return, 5 terminate
     _whole("BATT_FS_CRT_ACT", 1, 0, 7),
-    _real("DISARM_DELAY", 10, 0, 127),
+    _whole("DISARM_DELAY", 10, 0, 127),
     _whole("FS_GCS_ENABLE", 0, 0, 7),  # 0 off, 1 return, 2 return unless in a mission, 3, 4 smart return, 5 land
     _real("FS_GCS_TIMEOUT", 5, 2, 120),
     _whole("FS_EKF_ACTION", 1, 0, 3),  # 0 report, 1 land, 2 altitude hold, 3 land from any mode
@@ -47,10 +47,10 @@ ARDUPILOT_PARAMS: tuple[Param, ...] = (
     _real("WPNAV_SPEED_UP", 100, 10, 1000),
     _real("WPNAV_SPEED_DN", 75, 10, 500),
     _real("WPNAV_RADIUS", 10, 5, 1000),  # cm
-    _real("LAND_SPEED", 40, 20, 200),  # cm/s
-    _real("RTL_ALT", 150, 30, 300000),  # cm
-    _real("RTL_LOIT_TIME", 1000, 0, 60000),  # ms
-    _real("RTL_SPEED", 0, 0, 2000),  # cm/s; 0: WPNAV_SPEED
+    _whole("LAND_SPEED", 40, 20, 200),  # cm/s
+    _whole("RTL_ALT", 150, 30, 300000),  # cm
+    _whole("RTL_LOIT_TIME", 1000, 0, 60000),  # ms
+    _whole("RTL_SPEED", 0, 0, 2000),  # cm/s; 0: WPNAV_SPEED
     *SIMULATED,
 )
 
@@ -64,7 +64,7 @@ PX4_PARAMS: tuple[Param, ...] = (
     _real("COM_OF_LOSS_T", 1, 0, 60),
     _whole("COM_OBL_RC_ACT", 5, 0, 7),  # 0 position, 1 altitude, 2 manual, 3 return, 4 land, 5 hold, 6, 7 terminate
     _real("COM_FAIL_ACT_T", 5, 0, 25),  # seconds in hold before a failsafe acts
-    _real("COM_POS_FS_DELAY", 1, 1, 100),
+    _whole("COM_POS_FS_DELAY", 1, 1, 100),
     _whole("COM_LOW_BAT_ACT", 3, 0, 3),  # 0 warn, 2 land when critical, 3 return when critical and land in emergency
     _real("BAT_LOW_THR", 0.15, 0.05, 0.5),
     _real("BAT_CRIT_THR", 0.07, 0.03, 0.5),

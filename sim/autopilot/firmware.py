@@ -49,9 +49,7 @@ class Firmware(Conduct):
         if not streams and not (now.mode == "offboard" and now.armed):
             return
         if isinstance(found, str):
-            if now_s - self._complained_s > _COMPLAINS_S:
-                self._complained_s = now_s
-                now.say(Severity.WARNING, f"Setpoint refused: {found}")
+            self._complain(f"Setpoint refused: {found}", now_s)
             return
         self.stream, self.failsafes.watch.setpoint_s = found, now_s
         if now.mode == "offboard" and isinstance(self.activity, Guided):
@@ -59,11 +57,18 @@ class Firmware(Conduct):
                 return
             self.activity.take(found, now_s)
 
+    def _complain(self, text: str, now_s: float) -> None:
+        if now_s - self._complained_s > _COMPLAINS_S:
+            self._complained_s = now_s
+            self.now.say(Severity.WARNING, text)
+
     def external_pose(self, position_ned_m: Vec3, heading_rad: float | None, now_s: float) -> None:
         if heading_rad is not None and not abs(heading_rad) < 1000.0:
             return
-        if all(abs(axis) <= FARTHEST_M for axis in position_ned_m):
-            self.vehicle.external_pose(now_s, position_ned_m, heading_rad)
+        near = all(abs(axis) <= FARTHEST_M for axis in position_ned_m)
+        if near and self.vehicle.external_pose(now_s, position_ned_m, heading_rad):
+            return
+        self._complain("External pose rejected: it is far from the estimate", now_s)
 
     def set_origin(self, latitude_deg: float, longitude_deg: float, altitude_m: float) -> bool:
         origin = Origin(latitude_deg, longitude_deg, altitude_m)

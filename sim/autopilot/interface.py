@@ -146,8 +146,14 @@ class Telemetry:
     """EKF_STATUS_FLAGS."""
     mission_current: int
     mission_count: int
+    """With home where that is item 0."""
     target_ned_m: Vec3 | None
-    fence_breached: bool
+    fence_breach: str
+    """What of the fence is crossed, in words; empty while nothing is."""
+    fence_breaches: int
+    """How many times one began since it was switched on."""
+    fence_breached_s: float
+    """When the last one began."""
 
 
 class Autopilot(Protocol):

@@ -1,7 +1,7 @@
 """A mission's items: what is accepted, where it stands, and what has been reached."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from sim.autopilot.geo import GLOBAL_FRAMES, place
 from sim.autopilot.interface import Item
@@ -66,7 +66,13 @@ def _check_place(item: Item, now: Situation) -> int:
     found = spot(item, now)
     if found is None or (now.origin is None and item.frame in GLOBAL_FRAMES):
         return FRAME
-    return X if isinstance(found, str) else ACCEPTED
+    if not isinstance(found, str):
+        return ACCEPTED
+    without_height = spot(replace(item, z=math.nan), now)
+    if not isinstance(without_height, str):
+        return Z
+    without_east = spot(replace(item, y=now.origin.longitude_deg if now.origin else 0.0), now)
+    return X if isinstance(without_east, str) else Y
 
 
 @dataclass(slots=True)

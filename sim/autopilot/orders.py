@@ -90,7 +90,7 @@ def go(conduct: Conduct, command: Command, now_s: float) -> Answer:
     may_change = math.isfinite(command.params[1]) and int(command.params[1]) & 1
     if now.mode != mode and not may_change:
         return Answer(Ack.DENIED, f"Go to refused: it is in mode {now.mode}")
-    target = _destination(conduct, command)
+    target = _destination(conduct, command, "Go to")
     if isinstance(target, Answer):
         return target
     heading = None if math.isnan(yaw) or (guided and yaw == 0.0) else math.remainder(yaw, math.tau)
@@ -107,7 +107,7 @@ def orbit(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return Answer(Ack.DENIED, f"Orbit refused: a radius of {radius:g} m")
     if not 0.0 < speed * speed <= 3.0 * abs(radius) or speed > _FASTEST_MPS or speed < 0.0:
         return Answer(Ack.DENIED, f"Orbit refused: {speed:g} m/s on a radius of {abs(radius):g} m")
-    target = _target(conduct, command)
+    target = _target(conduct, command, "Orbit")
     if isinstance(target, Answer):
         return target
     turns = abs(angle) / math.tau if math.isfinite(angle) and angle else math.inf
@@ -187,7 +187,7 @@ def override(conduct: Conduct, command: Command, now_s: float) -> Answer:
     frame = command.params[2]
     if not (math.isfinite(frame) and frame == int(frame)):
         return Answer(Ack.UNSUPPORTED_FRAME)
-    target = _destination(conduct, replace(command, frame=int(frame)))
+    target = _destination(conduct, replace(command, frame=int(frame)), "Override")
     if isinstance(target, Answer):
         return target
     answer = conduct.choose("hold", now_s)
@@ -209,12 +209,12 @@ def start_mission(conduct: Conduct, command: Command, now_s: float) -> Answer:
     return conduct.choose("mission", now_s)
 
 
-def _target(conduct: Conduct, command: Command) -> Vec3 | Answer:
+def _target(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:
     """The place that a command names, in local NED, above the floor."""
     now = conduct.now
     if not now.flying or not now.located:
         why = "it is not flying" if now.located else "it needs a position estimate"
-        return Answer(now.row.refused, f"Refused: {why}")
+        return Answer(now.row.refused, f"{name} refused: {why}")
     frame = 0 if command.frame is None else command.frame
     if frame in GLOBAL_FRAMES and now.origin is None and math.isnan(command.x) and math.isnan(command.y):
         frame, command = 1, replace(command, z=math.nan)
@@ -222,19 +222,19 @@ def _target(conduct: Conduct, command: Command) -> Vec3 | Answer:
     if found is None:
         return Answer(Ack.UNSUPPORTED_FRAME)
     if isinstance(found, str):
-        return Answer(Ack.DENIED, f"Refused: {found}")
+        return Answer(Ack.DENIED, f"{name} refused: {found}")
     return found[0], found[1], min(found[2], -0.2)
 
 
-def _destination(conduct: Conduct, command: Command) -> Vec3 | Answer:
+def _destination(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:
     """The place that a command names, where the fence lets it be."""
-    target, now = _target(conduct, command), conduct.now
+    target, now = _target(conduct, command, name), conduct.now
     if isinstance(target, Answer):
         return target
     if now.params.get("GF_ACTION", 2.0) < 2.0:  # it warns at most
         return target
     why = beyond(now.below_ceiling(target), now, conduct.plans.fence)
-    return Answer(Ack.DENIED, f"Refused: that is beyond the fence: {why}") if why else target
+    return Answer(Ack.DENIED, f"{name} refused: that is beyond the fence: {why}") if why else target
 
 
 def _do(conduct: Conduct, what: Hover | Circle, now_s: float, asked: Vec3, name: str) -> Answer:

@@ -62,6 +62,12 @@ class Personality:
                 return mode
         return self.also.get(custom_mode)
 
+    def numbers(self, custom_mode: int) -> str:
+        """A `custom_mode` as people write it: PX4's has two parts."""
+        return (
+            str(custom_mode) if self.name == "ardupilot" else f"{custom_mode >> 16 & 0xFF}, {custom_mode >> 24 & 0xFF}"
+        )
+
 
 def px4_mode(main: int, sub: int = 0) -> int:
     """PX4's `custom_mode` of a main and a sub mode."""

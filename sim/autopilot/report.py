@@ -17,9 +17,9 @@ _ON_GROUND, _IN_AIR, _TAKING_OFF, _LANDING = 1, 2, 3, 4
 def report(conduct: Conduct, now_s: float) -> Telemetry:
     now, activity, mission = conduct.now, conduct.activity, conduct.plans.mission
     vehicle = now.vehicle
-    breached = bool(conduct.failsafes.watch.breach)
-    armable = next(arming.reasons(now, conduct.failsafes.watch), None) is None or now.armed
-    present, enabled, health = masks(now, conduct.plans.fence, breached, armable)
+    watch = conduct.failsafes.watch
+    armable = next(arming.reasons(now, watch), None) is None or now.armed
+    present, enabled, health = masks(now, conduct.plans.fence, bool(watch.breach), armable)
     landed = _ON_GROUND
     if now.flying:
         landed = _TAKING_OFF if taking_off(activity) else _LANDING if landing(activity) else _IN_AIR
@@ -49,5 +49,7 @@ def report(conduct: Conduct, now_s: float) -> Telemetry:
         mission_current=mission.current,
         mission_count=max(len(mission.items), mission.first),
         target_ned_m=getattr(activity, "place_ned_m", None) if now.armed else None,
-        fence_breached=breached,
+        fence_breach=watch.breach,
+        fence_breaches=watch.breaches,
+        fence_breached_s=watch.breached_s,
     )

@@ -6,7 +6,7 @@ the height alone the barometer. Gains are fixed and were set by hand for the noi
 are worth is measured by `sim.flight.bench`. NED and FRD, metres, seconds, radians.
 """
 
-from math import cos, sin, sqrt
+from math import cos, dist, sin, sqrt
 
 from sim.bullet import GRAVITY_MPS2
 from sim.flight.attitude import euler, heading, multiply, normalised, wrapped
@@ -24,8 +24,10 @@ _FIXES_APART_S, _MOST_WEIGHT = 0.05, 2.0
 """The gains of tilt and bias are for corrections this far apart; rarer ones weigh more, up to so many times."""
 _BIAS_PER_MPS, _MOST_BIAS = 0.06, 0.8
 _BARO_HEIGHT, _BARO_CLIMB = 0.02, 0.01
-_JUMP_M = 2.0
-"""A pose this far from the estimate begins it anew."""
+_GATE_M, _DRIFT_MPS, _GATE_RAD = 2.0, 1.0, 0.8
+"""A pose is not believed farther from the estimate than this and what it can have drifted, nor its heading."""
+_AGREED_S = 5.0
+"""Without fixes, poses that have agreed with each other for so long begin the estimate anew."""
 _CARRIED_S = 5.0
 """For this long without fix or pose, the velocity from the accelerometer alone is worth more than none."""
 
@@ -34,7 +36,7 @@ class Estimator:
     """`predict` at every physics step, the others as measurements come."""
 
     __slots__ = (
-        "_baro_s", "_bias_a", "_bias_n", "_fixed_s", "_headed_s", "_pose_s", "_started", "estimate", "pd", "pe", "pn", "q",
+        "_baro_s", "_bias_a", "_bias_n", "_doubted", "_fixed_s", "_headed_s", "_pose_s", "_started", "estimate", "pd", "pe", "pn", "q",
         "vd", "ve", "vn", "wx", "wy", "wz",
     )  # fmt: skip
 
@@ -49,6 +51,8 @@ class Estimator:
         """Of the gyroscope, in FRD."""
         self._fixed_s = self._pose_s = self._headed_s = self._baro_s = -1e9
         self._started = False
+        self._doubted: tuple[float, float, Vec3] | None = None
+        """Poses that are not believed and agree with each other: since when, when the last came, and where it was."""
         self.estimate = Estimate()
 
     def predict(self, gyro: Vec3, accel: Vec3, step_s: float) -> None:
@@ -101,24 +105,43 @@ class Estimator:
         un, ue, ud = (z - v for z, v in zip(velocity_ned_mps, (self.vn, self.ve, self.vd), strict=True))
         self._correct(dn, de, dd, un, ue, ud, _FIX_POSITION, _FIX_VELOCITY, _FIX_CROSS * span_s)
 
-    def pose(self, now_s: float, position_ned_m: Vec3, heading_rad: float | None) -> None:
-        """A pose from outside: vision, motion capture. One that is no newer than the last is passed over."""
+    def pose(self, now_s: float, position_ned_m: Vec3, heading_rad: float | None) -> bool:
+        """A pose from outside: vision, motion capture; whether it is believed. One no newer than the last is passed over."""
         if now_s <= self._pose_s:
-            return
+            return True
+        if not self._believed(now_s, position_ned_m):
+            return False
         span_s, age_s = min(0.2, now_s - self._pose_s), now_s - max(self._fixed_s, self._pose_s)
-        far = max(abs(z - p) for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True)) > _JUMP_M
-        if age_s > FRESH_S or far:
+        if age_s > FRESH_S:
             known = age_s < _CARRIED_S
             self.restart(position_ned_m, (self.vn, self.ve, self.vd) if known else (0.0, 0.0, 0.0))
         self._pose_s = now_s
         if heading_rad is not None:
-            self._headed_s = now_s
-            self._turn(0.0, 0.0, _OUTSIDE_HEADING * wrapped(heading_rad - heading(self.q)))
+            self._head(now_s, wrapped(heading_rad - heading(self.q)))
         if now_s - self._fixed_s > FRESH_S:
             dn, de, dd = (z - p for z, p in zip(position_ned_m, (self.pn, self.pe, self.pd), strict=True))
             un, ue, ud = (_POSE_CROSS * d for d in (dn, de, dd))
             place = min(_MOST_POSE, _POSE_PER_S * span_s)  # poses come at any rate, from 5 to 200 a second
             self._correct(dn, de, dd, un, ue, ud, place, span_s, 0.0, min(_MOST_WEIGHT, span_s / _FIXES_APART_S))
+        return True
+
+    def _head(self, now_s: float, error_rad: float) -> None:
+        near = abs(error_rad) < _GATE_RAD
+        if near or now_s - max(self._headed_s, self._fixed_s) > _AGREED_S:
+            self._headed_s = now_s
+            self._turn(0.0, 0.0, error_rad * (_OUTSIDE_HEADING if near else 1.0))
+
+    def _believed(self, now_s: float, position_ned_m: Vec3) -> bool:
+        """Whether the vehicle can be there; poses that insist are believed in the end, where there are no fixes."""
+        age_s = now_s - max(self._fixed_s, self._pose_s)
+        if dist(position_ned_m, (self.pn, self.pe, self.pd)) <= _GATE_M + _DRIFT_MPS * max(0.0, age_s - FRESH_S):
+            self._doubted = None
+            return True
+        since_s, last_s, place = self._doubted or (now_s, now_s, position_ned_m)
+        if now_s - last_s > FRESH_S or dist(position_ned_m, place) > _GATE_M:
+            since_s = now_s
+        self._doubted = (since_s, now_s, position_ned_m)
+        return now_s - since_s >= _AGREED_S and now_s - self._fixed_s > FRESH_S
 
     def restart(self, position_ned_m: Vec3, velocity_ned_mps: Vec3 = (0.0, 0.0, 0.0)) -> None:
         """Take a place and a velocity as they are."""

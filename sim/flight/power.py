@@ -4,6 +4,8 @@ from sim.flight.state import Battery
 
 CAPACITY_MAH = 5200.0
 _CELLS, _EMPTY_V, _SPAN_V = 4, 3.45, 0.75
+_LEAST_V = 8.0
+"""What an empty one falls to at once, loaded or not."""
 _RESISTANCE_OHM = 0.03
 
 
@@ -47,8 +49,8 @@ class Power:
         if self._drain_s is not None and power_w > 20.0:
             gone = max(gone, span_s / self._drain_s)
         state.remaining = max(0.0, state.remaining - gone)
-        state.voltage_v = self._pinned_v or max(8.0, _rest_v(state.remaining) - _RESISTANCE_OHM * current_a)
+        state.voltage_v = self._pinned_v or max(_LEAST_V, _rest_v(state.remaining) - _RESISTANCE_OHM * current_a)
 
 
 def _rest_v(remaining: float) -> float:
-    return _CELLS * (_EMPTY_V + _SPAN_V * remaining)
+    return _CELLS * (_EMPTY_V + _SPAN_V * remaining) if remaining > 0.0 else _LEAST_V

@@ -105,8 +105,8 @@ class Quadrotor:
     def command(self, setpoint: Setpoint) -> None:
         self._setpoint = setpoint
 
-    def external_pose(self, stamp_s: float, position_ned_m: Vec3, heading_rad: float | None) -> None:
-        self._estimator.pose(stamp_s, position_ned_m, heading_rad)
+    def external_pose(self, stamp_s: float, position_ned_m: Vec3, heading_rad: float | None) -> bool:
+        return self._estimator.pose(stamp_s, position_ned_m, heading_rad)
 
     def fail(self, unit: str, works: bool) -> None:
         healthy = self._sensing.readings.healthy

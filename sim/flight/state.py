@@ -132,8 +132,8 @@ class Vehicle(Protocol):
         """Followed until the next one."""
         ...
 
-    def external_pose(self, stamp_s: float, position_ned_m: Vec3, heading_rad: float | None) -> None:
-        """A pose from outside (vision, motion capture), finite, taken into the estimate."""
+    def external_pose(self, stamp_s: float, position_ned_m: Vec3, heading_rad: float | None) -> bool:
+        """A pose from outside (vision, motion capture), finite; whether the estimator believes it."""
         ...
 
     def fail(self, unit: str, works: bool) -> None:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from pymavlink.dialects.v20 import ardupilotmega as mav
@@ -67,6 +68,7 @@ class Commands:
             mav.MAV_CMD_GET_MESSAGE_INTERVAL: self._get_interval,
             mav.MAV_CMD_REQUEST_MESSAGE: self._request,
             mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: self._capabilities,
+            mav.MAV_CMD_GET_HOME_POSITION: self._home,
             mav.MAV_CMD_DO_SET_MODE: self._set_mode,
         }
 
@@ -87,12 +89,20 @@ class Commands:
             self._running[command.id] = sender
         if answer.text:
             self._craft.complain(answer.text, now_s)
-        if command.id == mav.MAV_CMD_REQUEST_MESSAGE and answer.result == Ack.ACCEPTED:
-            self._send(int(command.params[0]), sender, now_s)
-        elif command.id == mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES and answer.result == Ack.ACCEPTED:
-            self._send(streams.VERSION, sender, now_s)
-        elif command.id == mav.MAV_CMD_GET_MESSAGE_INTERVAL and answer.result == Ack.ACCEPTED:
-            self._send_interval(int(command.params[0]), sender)
+        if answer.result == Ack.ACCEPTED:
+            self._follow_up(command, sender, now_s)
+
+    def _follow_up(self, command: Command, sender: Sender, now_s: float) -> None:
+        """What was asked for goes out after the acknowledgement."""
+        match command.id:
+            case mav.MAV_CMD_REQUEST_MESSAGE:
+                self._send(int(command.params[0]), sender, now_s)
+            case mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES:
+                self._send(streams.VERSION, sender, now_s)
+            case mav.MAV_CMD_GET_HOME_POSITION:
+                self._send(streams.HOME, sender, now_s)
+            case mav.MAV_CMD_GET_MESSAGE_INTERVAL:
+                self._send_interval(int(command.params[0]), sender)
 
     def _ack(self, command: int, result: Ack, to: Sender, progress: int = 0, compid: int = AUTOPILOT) -> None:
         ack = mav.MAVLink_command_ack_message(command, int(result), progress, 0, to.sysid, to.compid)
@@ -155,6 +165,10 @@ class Commands:
         message = streams.build(self._craft, message_id, self._craft.autopilot.telemetry(now_s))
         if message is not None:
             self._craft.reply(sender, message)
+
+    def _home(self, command: Command, sender: Sender, now_s: float) -> Answer:
+        """What REQUEST_MESSAGE of HOME_POSITION has replaced; MAVROS and older stations still send it."""
+        return self._request(replace(command, params=(float(streams.HOME), 0.0, 0.0, 0.0)), sender, now_s)
 
     def _capabilities(self, command: Command, sender: Sender, now_s: float) -> Answer:
         return Answer(Ack.ACCEPTED if command.params[0] == 1 else Ack.DENIED)

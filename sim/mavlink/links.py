@@ -25,6 +25,10 @@ class LinkError(Exception):
     """A link cannot be opened: says which, why, and what to do."""
 
 
+class LeavesMachine(LinkError):
+    """The far end of a link is elsewhere, and this one is bound to the loopback."""
+
+
 class Link(Protocol):
     """One socket and its peers."""
 
@@ -77,9 +81,7 @@ class UdpOut:
         except OSError as error:
             raise LinkError(f"UDP to {host}:{port}: no such host") from error
         if ipaddress.ip_address(bind).is_loopback and not ipaddress.ip_address(self._to[0]).is_loopback:
-            raise LinkError(
-                f"UDP to {host}:{port} leaves this machine, but links bind to {bind}: add --bind ADDRESS, its own there"
-            )
+            raise LeavesMachine(f"UDP to {host}:{port} leaves this machine, but links bind to {bind}")
         self._socket = _bound(socket.SOCK_DGRAM, bind, 0)
         self._peer = Peer(f"udp to {host}:{port}", self._write, next(_ids) & 0xFF, signing)
 

@@ -15,7 +15,7 @@ from typing import cast
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
 from sim.autopilot.interface import Ack, Command, Item, Plan, Severity
-from sim.mavlink import items
+from sim.mavlink import items, status
 from sim.mavlink.craft import Craft, Sender
 from sim.mavlink.pack import finite, u16
 from sim.mavlink.peer import Message
@@ -200,9 +200,7 @@ class Missions:
     def set_current(self, message: Message, sender: Sender, now_s: float) -> None:
         """MISSION_SET_CURRENT: answered by MISSION_CURRENT, or by a refusal."""
         if self._craft.autopilot.set_current(message.seq):
-            now = self._craft.autopilot.telemetry(now_s)
-            current = mav.MAVLink_mission_current_message(u16(now.mission_current), u16(now.mission_count))
-            self._craft.broadcast(current)
+            self._craft.broadcast(status.mission(self._craft, self._craft.autopilot.telemetry(now_s)))
         else:
             self._ack(sender, mav.MAV_MISSION_INVALID_SEQUENCE, 0)
             self._craft.complain(f"Mission has no item {message.seq} to go on from", now_s)

@@ -54,7 +54,7 @@ class Setpoints:
         acceleration = _kept(mask, ACCELERATION, (message.afx, message.afy, message.afz))
         turn = _kept(0, 0, (0.0 if mask & YAW else message.yaw, 0.0 if mask & YAW_RATE else message.yaw_rate, 0.0))
         if position is None or velocity is None or acceleration is None or turn is None:
-            self._craft.complain("Setpoint refused: a number in it is not finite", now_s)
+            self._craft.complain("Setpoint refused: a number in it is not finite or absurd", now_s)
             return
         target = PositionTarget(frame, mask, position, velocity, acceleration, turn[0], turn[1])
         self._craft.autopilot.position_target(target, now_s)
@@ -73,7 +73,7 @@ class Setpoints:
 
     def _pose(self, where: Vec3, heading: float | None, now_s: float) -> None:
         if not finite(where) or max(map(abs, where)) > FARTHEST_POSE_M:
-            self._craft.complain("External pose refused: a number is not finite", now_s)
+            self._craft.complain("External pose refused: a number is not finite or absurd", now_s)
             return
         known = heading is not None and math.isfinite(heading) and abs(heading) < ABSURD
         self._craft.autopilot.external_pose(where, heading if known else None, now_s)

@@ -11,6 +11,8 @@ from sim.mavlink.peer import Message
 
 CELLS = 4
 NO_CELL = 0xFFFF
+HEIGHTS = ("ceiling", "maximum altitude")
+"""The breaches of a fence that are no matter of where it is across."""
 STANDARD_GRAVITY = 9.80665
 VENDOR = 0x5232
 """R2, as two letters."""
@@ -110,7 +112,8 @@ def servos(craft: Craft, now: Telemetry) -> Message:
 
 
 def mission(craft: Craft, now: Telemetry) -> Message:
-    if not now.mission_count:
+    flown = now.mission_count - int(craft.personality.home_is_item_0)  # the protocol leaves home out of the total
+    if not flown:
         state = mav.MISSION_STATE_NO_MISSION
     elif craft.last_reached is not None and min(craft.last_reached, now.mission_current) >= now.mission_count - 1:
         state = mav.MISSION_STATE_COMPLETE
@@ -118,7 +121,7 @@ def mission(craft: Craft, now: Telemetry) -> Message:
         state = mav.MISSION_STATE_ACTIVE
     else:
         state = mav.MISSION_STATE_NOT_STARTED
-    return mav.MAVLink_mission_current_message(u16(now.mission_current), u16(now.mission_count), state, 0)
+    return mav.MAVLink_mission_current_message(u16(now.mission_current), u16(flown), state, 0)
 
 
 def _readable(now: Telemetry) -> bool:
@@ -167,7 +170,11 @@ def vibration(craft: Craft, now: Telemetry) -> Message:
 
 
 def fence(craft: Craft, now: Telemetry) -> Message:
-    return mav.MAVLink_fence_status_message(int(now.fence_breached), int(now.fence_breached), 0, 0)
+    kind = mav.FENCE_BREACH_NONE
+    if now.fence_breach:
+        kind = mav.FENCE_BREACH_MAXALT if now.fence_breach in HEIGHTS else mav.FENCE_BREACH_BOUNDARY
+    since_ms = boot_ms(now.fence_breached_s) if now.fence_breaches else 0
+    return mav.MAVLink_fence_status_message(int(kind != 0), u16(now.fence_breaches), kind, since_ms)
 
 
 def version(craft: Craft, now: Telemetry) -> Message:

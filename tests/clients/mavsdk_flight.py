@@ -55,6 +55,8 @@ async def fly(url: str) -> None:
         print("parameters", len(everything.int_params), len(everything.float_params))
         await params.set_param_float("SIM_BAT_DRAIN", 0.0)
         await action.set_takeoff_altitude(2.0)
+        await action.set_return_to_launch_altitude(2.0)
+        assert abs(await action.get_return_to_launch_altitude() - 2.0) < 1e-3
         await action.arm()
         await action.takeoff()
         await until(telemetry.subscribe_position_velocity_ned(), lambda p: p.position.down_m < -1.8, 10, "up")

@@ -15,6 +15,7 @@ RAISE = SkillCard(
     doc="Raise a desk.",
     parameters=json.dumps({"properties": {"target": {}, "height_m": {"type": "number"}}, "required": ["target"]}),
 )
+GOTO = SkillCard(name="goto", doc="Be somewhere.", parameters=json.dumps({"properties": {"room": {}, "height_m": {}}}))
 MOP = SkillCard(name="mop", doc="Mop a room.", parameters=json.dumps({"properties": {"room": {}}}))
 
 
@@ -27,7 +28,7 @@ def ask(instruction: str, *failures: str) -> PlanReply:
         epoch=1,
         instruction=instruction,
         world=house.world(),
-        skills=(RAISE, MOP),
+        skills=(RAISE, MOP, GOTO),
         failures=failures,
         now_s=0.0,
     )
@@ -41,6 +42,7 @@ def ask(instruction: str, *failures: str) -> PlanReply:
         ("do raise_desk on the desk in bedroom-1 height_m=1.1", ("desk-1",), None, {"height_m": 1.1}, None),
         ("Do raise_desk on all desks height_m=1", ("desk-1", "desk-2"), None, {"height_m": 1}, None),
         ("dog-1: do mop in the kitchen", (None,), "kitchen", {}, "dog-1"),
+        ("dog-1: do goto in the kitchen height_m=1.2", (None,), "kitchen", {"height_m": 1.2}, "dog-1"),
         ("do mop mode=wet", (None,), None, {"mode": "wet"}, None),
     ],
 )
@@ -50,13 +52,13 @@ def test_a_named_skill_is_a_plan(instruction, objects, room, params, robot) -> N
     assert tuple(node.object for node in plan.nodes) == objects
     for node in plan.nodes:
         assert (node.room, node.params, node.preferred_robot) == (room, params, robot)
-        assert node.action in ("raise_desk", "mop")
+        assert node.action in ("raise_desk", "mop", "goto")
 
 
 @pytest.mark.parametrize(
     ("instruction", "why"),
     [
-        ("do raise_roof on desk-1", "no robot here announces the skill raise_roof; .* mop, raise_desk"),
+        ("do raise_roof on desk-1", "no robot here announces the skill raise_roof; .* goto, mop, raise_desk"),
         ("do raise_desk on the desk", "which one is 'the desk'"),
         ("do raise_desk on the laptop", "nothing is known yet of 'the laptop'"),
         ("do raise_desk on the moon", "I do not understand"),

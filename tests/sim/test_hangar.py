@@ -77,6 +77,21 @@ def test_a_client_at_the_drones_address_flies_it(firmware) -> None:
         flown.close()
 
 
+def test_the_barometer_and_the_fix_agree_on_the_height_above_the_sea() -> None:
+    port = free_port(socket.SOCK_DGRAM)
+    flown = Flown(f"udpin://127.0.0.1:{port}")
+    client = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", dialect="ardupilotmega")
+    try:
+        flown.run(2.0)
+        fix = client.recv_match(type="GPS_RAW_INT", blocking=True, timeout=2.0)
+        pressure = client.recv_match(type="SCALED_PRESSURE", blocking=True, timeout=2.0)
+        standard_m = 44330.0 * (1.0 - (pressure.press_abs / 1013.25) ** 0.190295)
+        assert standard_m == pytest.approx(fix.alt / 1000.0, abs=10.0)
+    finally:
+        client.close()
+        flown.close()
+
+
 def test_a_ground_station_may_look_on() -> None:
     port, station = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_DGRAM)
     flown = Flown(f"udpin://127.0.0.1:{port}", mavlink_out=[f"127.0.0.1:{station}"])
@@ -96,6 +111,12 @@ def test_a_port_in_use_is_told_with_the_drone() -> None:
         port = taken.getsockname()[1]
         with pytest.raises(CannotRun, match=rf"the autopilot of drone-1: TCP port {port} is in use"):
             Flown(f"tcpout://127.0.0.1:{port}")
+
+
+def test_a_ground_station_on_another_machine_is_told_of_a_way() -> None:
+    port = free_port(socket.SOCK_DGRAM)
+    with pytest.raises(CannotRun, match=r"leaves this machine.*; send it to a MAVLink router here"):
+        Flown(f"udpin://127.0.0.1:{port}", mavlink_out=["192.0.2.7:14550"])
 
 
 @pytest.mark.parametrize(

@@ -19,12 +19,24 @@ def test_links_by_default() -> None:
 
 
 @pytest.mark.parametrize(
+    "arguments", [["--home", "-35.363262,149.165237,584,353"], ["--home=-35.363262,149.165237,584,353"]]
+)
+def test_a_home_in_the_south(arguments) -> None:
+    """Where ArduPilot's own simulation stands."""
+    assert parse(arguments).home == (-35.363262, 149.165237, 584.0, 353.0)
+    assert parse(["--seed", "2", *arguments, "--tcp", "0"]).tcp == (0,)
+
+
+@pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         (["--tcp", "70000"], "is no port"),
         (["--udp-out", "14550"], "give HOST:PORT"),
         (["--home", "1,2,3"], "give LAT,LON,ALT,YAW"),
         (["--home", "91,2,3,0"], "degrees within"),
+        (["--home", "-95,2,3,0"], "degrees within"),
+        (["--home", "1,2,3,1e300"], "degrees within"),
+        (["--home", "--seed"], "expected one argument"),
         (["--home", "nan,2,3,0"], "give LAT,LON,ALT,YAW"),
         (["--vehicles", "0"], "give 1 to 10"),
         (["--scene", "house"], "give empty, or home:SEED"),
@@ -47,11 +59,17 @@ def test_port_in_use(capsys) -> None:
     assert f"TCP port {port} is in use" in capsys.readouterr().err
 
 
+def test_a_station_elsewhere_needs_an_address_to_bind_to(capsys) -> None:
+    assert main(["--udp-out", "192.0.2.7:14550"]) == 1
+    assert "leaves this machine, but links bind to 127.0.0.1: add --bind ADDRESS" in capsys.readouterr().err
+
+
 def test_in_a_home() -> None:
     sitl = Sitl(parse(["--scene", "home:7", "--tcp", "0", "--vehicles", "2", "--gps", "none", "--sign-key", "ab" * 32]))
     text = "\n".join(sitl.lines())
     assert "system ids 1 to 2, over home 7" in text
     assert "no GPS" in text
+    assert "47.39" not in text, "nobody has told it an origin"
     assert "signed with the key" in text
     for _ in range(240):
         sitl.flight.step()

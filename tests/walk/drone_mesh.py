@@ -142,6 +142,7 @@ class DroneMesh:
         """The drone reports, hears the hub, and has found its autopilot."""
         self.until(lambda: bool(self.reports) and self.report.status == "idle", 30.0)
         self.until(lambda: any("found an autopilot" in line for line in self.lines), 30.0)
+        assert not any("could not be set" in line for line in self.lines), self.lines
 
     def give(self, goal_id: str, action: str, **fields: object) -> None:
         """A goal, accepted."""

@@ -146,3 +146,27 @@ def test_a_robot_outside_of_the_house(tmp_path: Path) -> None:
     (tmp_path / "good.toml").write_text(GOOD + robot % "3.0")
     assert load_site(tmp_path / "good.toml").robot[-1].id == "dog-9"
     assert "start_m: (104, 1) m is in no room" in fault(GOOD + robot % "104.0", tmp_path)
+
+
+FLYING = """
+[[robot]]
+id = "drone-1"
+kind = "drone"
+start_m = [3.0, 1.0]
+link = "udpin://127.0.0.1:14540"
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("north_deg = 900.0", "robot.0.north_deg"),
+        (FLYING.replace("drone-1", "drone-2"), "the link udpin://127.0.0.1:14540 stands there 2 times"),
+        ('[sim]\nseed = 1\nmavlink_out = ["127.0.0.1:99999"]', "sim.mavlink_out.0: 99999 is no port"),
+        ('[sim]\nseed = 1\nmavlink_out = ["127.0.0.1:0"]', "sim.mavlink_out.0: 0 is no port"),
+    ],
+)
+def test_a_drone_that_could_not_be_flown(more: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "good.toml").write_text(GOOD + FLYING)
+    load_site(tmp_path / "good.toml")
+    assert said in fault(GOOD + FLYING + more, tmp_path)

@@ -55,6 +55,24 @@ def flying(seconds: float) -> tuple[ScriptedPilot, DroneCore, Hub, LoopbackMesh]
     return pilot, core, hub, mesh
 
 
+def test_what_people_should_know_stands_in_its_log_too(caplog):
+    """Where `./justw logs` looks, and docs/fly-a-real-drone.md sends people."""
+    with caplog.at_level("INFO"):
+        flying(1.0)
+    assert "found an autopilot: system 1, px4; ready" in caplog.text
+
+
+def test_an_autopilot_that_never_was_is_missed_once() -> None:
+    pilot, hub, mesh = ScriptedPilot(), Hub("hold"), LoopbackMesh()
+    pilot.news = list  # type: ignore[method-assign]
+    mesh.add(hub, "hub", "hub")
+    mesh.add(DroneCore(flat(), "drone-1", open_journal(), lambda row: pilot), "drone-1", "robot")
+    mesh.run(20.0)
+    assert [line for line in hub.lines if "autopilot" in line] == [
+        "no autopilot is heard at udpin://127.0.0.1:14540 yet"
+    ]
+
+
 def test_it_reports_ten_times_a_second_where_it_is_and_how_full():
     _, _, hub, _ = flying(6.0)
     assert 50 <= len(hub.reports) <= 62

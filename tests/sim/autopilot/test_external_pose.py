@@ -31,3 +31,17 @@ def test_flies_by_a_pose_from_outside(rigs):
         rig.every = None
         assert rig.fly(4, lambda rig=rig: rig.in_mode("land"))
         assert not rig.report.health & 0x80
+
+
+def test_a_pose_kilometres_away_is_rejected_in_words(rigs):
+    for name in ("ardupilot", "px4"):
+        rig = rigs(name, gps="none")
+        rig.every = lambda rig=rig: rig.firmware.external_pose(rig.true_ned, 0.0, rig.now_s)
+        rig.fly(2.0)
+        rig.take_off(1.0)
+        for far_m in (1500.0, 50_000.0):
+            rig.said.clear()
+            rig.firmware.external_pose((far_m, 0.0, -1.0), 0.0, rig.now_s + 1e-3)
+            rig.fly(2.0)
+            assert rig.heard("External pose rejected")
+            assert rig.off(0.0, 0.0, -1.0) < 0.3

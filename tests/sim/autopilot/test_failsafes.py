@@ -205,3 +205,11 @@ def test_the_pilot_takes_over(rig):
     rig.fly(2.0)
     assert rig.in_mode("hold")
     assert rig.report.system_status == 5
+
+
+def test_an_empty_battery_brings_it_down_and_leaves_it_disarmed(rig):
+    rig.take_off(0.5)
+    put(rig, SIM_BAT_REMAIN=0)
+    rig.fly(1.0)
+    assert rig.report.battery.voltage_v < 10.0
+    assert rig.fly(25, lambda: not rig.report.armed)

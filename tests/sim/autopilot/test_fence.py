@@ -30,7 +30,8 @@ def test_crossing_a_fence(rig, plan, words):
     assert rig.fly(4, lambda: rig.in_mode("land"))
     assert 0.8 < rig.true_ned[0] < 1.5
     assert rig.heard(words)
-    assert rig.report.fence_breached
+    assert words in rig.report.fence_breach
+    assert rig.report.fence_breaches == 1
     assert not rig.report.health & 0x100000
     assert rig.report.system_status == 5
 

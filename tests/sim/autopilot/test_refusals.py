@@ -239,3 +239,10 @@ def test_reboot_begins_anew(rig):
     assert rig.do(246, 1).result is Ack.ACCEPTED
     assert rig.in_mode("stabilize" if rig.firmware.now.row.name == "ardupilot" else "hold")
     assert rig.do(241, 1).result is Ack.ACCEPTED
+
+
+def test_a_region_of_interest_needs_a_place(rig):
+    for x, y in ((NAN, NAN), (NAN, 8.5), (47.4, NAN)):
+        assert rig.do(195, x=x, y=y, z=1.0, frame=3).result is Ack.DENIED
+    assert rig.heard("needs a place")
+    assert rig.do(195, x=ZURICH[0], y=ZURICH[1], z=1.0, frame=3).result is Ack.ACCEPTED

@@ -172,3 +172,57 @@ def test_noisy_poses_hold_the_place_at_any_rate_and_somewhat_late(every, late) -
     held = track[1:]
     assert sqrt(sum(dist(place, (0.0, 0.0, -2.0)) ** 2 for place in held) / len(held)) < 0.05
     world.close()
+
+
+def told(vehicle, world, span_s: float, where=None, heading_rad: float | None = 0.0) -> None:
+    """A pose twenty times a second, from `where` or where it truly is."""
+    for _ in range(round(span_s / 0.05)):
+        vehicle.external_pose(world.now_s, where or place_ned(vehicle), heading_rad)
+        world.advance(0.05)
+
+
+@pytest.mark.parametrize("absurd", [(1500.0, -900.0, -40.0), (0.0, 6.0, -2.0)])
+def test_absurd_poses_among_good_ones_are_not_believed(blind_world, absurd) -> None:
+    vehicle = blind_world.vehicles[0]
+    blind_world.advance(1.0)
+    told(vehicle, blind_world, 1.0)
+    vehicle.arm()
+    vehicle.command(Trajectory((0.0, 0.0, -2.0), heading_rad=0.0))
+    told(vehicle, blind_world, 6.0)
+    for _ in range(5):
+        assert not vehicle.external_pose(blind_world.now_s, absurd, 2.5)
+        blind_world.advance(0.05)
+        told(vehicle, blind_world, 0.5)
+        assert vehicle.estimate.position_ok
+        assert dist(place_ned(vehicle), (0.0, 0.0, -2.0)) < 0.3
+
+
+def test_a_stream_of_absurd_poses_loses_the_place_and_moves_it_only_when_it_insists(blind_world) -> None:
+    vehicle = blind_world.vehicles[0]
+    blind_world.advance(1.0)
+    told(vehicle, blind_world, 1.0)
+    told(vehicle, blind_world, 3.0, (1500.0, 0.0, 0.0))
+    assert not vehicle.estimate.position_ok
+    assert dist(vehicle.estimate.position_ned_m, (0.0, 0.0, 0.0)) < 1.0
+    told(vehicle, blind_world, 3.0, (1500.0, 0.0, 0.0))
+    assert vehicle.estimate.position_ok, "it was carried, or its tracker began anew"
+    assert dist(vehicle.estimate.position_ned_m, (1500.0, 0.0, 0.0)) < 0.2
+
+
+def test_poses_far_from_the_fixes_are_never_believed(world) -> None:
+    vehicle = in_the_air(world)
+    told(vehicle, world, 8.0, (300.0, 40.0, -9.0), 2.0)
+    told(vehicle, world, 8.0, None, 2.0)
+    assert vehicle.estimate.position_ok
+    assert dist(place_ned(vehicle), (0.0, 0.0, -2.0)) < 0.1
+    assert abs(vehicle.estimate.heading_rad) < 0.1, "nor a heading that the compass speaks against"
+
+
+def test_the_heading_of_the_first_poses_is_taken_and_a_leap_of_it_is_not(blind_world) -> None:
+    vehicle = blind_world.vehicles[0]
+    blind_world.advance(1.0)
+    told(vehicle, blind_world, 1.0, heading_rad=2.0)
+    assert vehicle.estimate.heading_rad == pytest.approx(2.0, abs=0.05)
+    told(vehicle, blind_world, 0.5, heading_rad=-1.0)
+    assert vehicle.estimate.heading_rad == pytest.approx(2.0, abs=0.05)
+    assert vehicle.estimate.position_ok

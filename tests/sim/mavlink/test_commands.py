@@ -151,3 +151,47 @@ def test_one_system_id_a_vehicle():
         bed.advance(2.0)
         modes = {m.get_srcSystem(): m.custom_mode for m in client.all("HEARTBEAT") if m.get_srcComponent() == 1}
         assert modes == {1: 0, 2: 4, 3: 0}
+
+
+def test_home_by_the_older_command(bed):
+    client = bed.client()
+    bed.advance(3.0)
+    assert client.command(mav.MAV_CMD_GET_HOME_POSITION) == mav.MAV_RESULT_ACCEPTED
+    assert client.wait("HOME_POSITION", 0.2).latitude == pytest.approx(473977420, abs=20)
+
+
+def test_prearm_checks_are_run_when_asked_for(bed):
+    client = bed.client()
+    bed.advance(3.0)
+    assert client.command(mav.MAV_CMD_RUN_PREARM_CHECKS) == mav.MAV_RESULT_ACCEPTED
+    bed.firmware.vehicle.fail("mag", works=False)
+    client.forget()
+    assert client.command(mav.MAV_CMD_RUN_PREARM_CHECKS) == mav.MAV_RESULT_ACCEPTED
+    bed.advance(0.5)
+    assert client.texts() == ["PreArm: Compass not healthy"]
+
+
+def test_a_mode_that_is_not_there_is_named_as_it_was_asked_for(bed):
+    client = bed.client()
+    bed.advance(1.0)
+    px4 = bed.firmware.now.row.name == "px4"
+    assert client.command(mav.MAV_CMD_DO_SET_MODE, 1, 99, 3) != mav.MAV_RESULT_ACCEPTED
+    assert client.texts() == ["There is no mode 99, 3" if px4 else "There is no mode 99"]
+    assert client.command(mav.MAV_CMD_DO_SET_MODE, 0, 4, 3) != mav.MAV_RESULT_ACCEPTED
+    assert client.texts() == ["Only custom modes are known"]
+
+
+def test_the_fence_status_says_what_is_crossed_and_how_often(bed):
+    client = bed.client()
+    bed.advance(2.0)
+    watch = bed.firmware.failsafes.watch
+    assert client.wait("FENCE_STATUS").breach_count == 0
+    for words, kind in (("inclusion zone", mav.FENCE_BREACH_BOUNDARY), ("maximum altitude", mav.FENCE_BREACH_MAXALT)):
+        watch.fence("", bed.flight.now_s)
+        watch.fence(words, bed.flight.now_s)
+        client.forget()
+        assert client.command(mav.MAV_CMD_REQUEST_MESSAGE, 162) == mav.MAV_RESULT_ACCEPTED
+        told = client.wait("FENCE_STATUS", 0.1)
+        assert (told.breach_status, told.breach_type) == (1, kind)
+        assert told.breach_time > 0
+    assert told.breach_count == 2

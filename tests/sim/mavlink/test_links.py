@@ -26,7 +26,7 @@ def test_port_in_use_says_so():
 
 
 def test_leaving_the_machine_needs_a_word():
-    with pytest.raises(LinkError, match="--bind ADDRESS"):
+    with pytest.raises(LinkError, match="leaves this machine"):
         UdpOut("192.0.2.1", 14550)
 
 

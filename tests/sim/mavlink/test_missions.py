@@ -184,7 +184,10 @@ def test_set_current(bed):
     assert upload(client, POINTS) == 0
     client.forget()
     client.mav.mission_set_current_send(1, 1, 3)
-    assert client.wait("MISSION_CURRENT", such=lambda m: m.seq == 3).total >= 5
+    current = client.wait("MISSION_CURRENT", such=lambda m: m.seq == 3)
+    home = int(bed.firmware.now.row.home_is_item_0)
+    assert current.total == len(POINTS) - home, "home is not counted"
+    assert current.mission_state == mav.MISSION_STATE_NOT_STARTED
     client.forget()
     client.mav.mission_set_current_send(1, 1, 99)
     assert client.wait("MISSION_ACK").type == mav.MAV_MISSION_INVALID_SEQUENCE
@@ -210,3 +213,29 @@ def test_end_of_a_mission_is_told(bed):
     assert upload(client, POINTS) == 0
     client.forget()
     assert client.wait("MISSION_CURRENT").mission_state != mav.MISSION_STATE_COMPLETE
+
+
+def test_without_a_mission_it_says_so(bed):
+    client = bed.client()
+    current = client.wait("MISSION_CURRENT")
+    assert (current.total, current.mission_state) == (0, mav.MISSION_STATE_NO_MISSION)
+
+
+@pytest.mark.parametrize(
+    ("place", "result"),
+    [
+        ((95.0, HOME[1], 1.5), mav.MAV_MISSION_INVALID_PARAM5_X),
+        ((HOME[0], 190.0, 1.5), mav.MAV_MISSION_INVALID_PARAM6_Y),
+        ((HOME[0], HOME[1] + 1.0, 1.5), mav.MAV_MISSION_INVALID_PARAM6_Y),
+        ((*HOME, 1e6), mav.MAV_MISSION_INVALID_PARAM7),
+    ],
+)
+def test_a_place_that_cannot_be_is_refused_by_the_number_that_is_wrong(bed, place, result):
+    client = bed.client()
+    bed.advance(2.0)
+    client.mav.mission_count_send(1, 1, 2, 0)
+    asked(client, 0)
+    item(client, 0)
+    asked(client, 1)
+    item(client, 1, x=place[0], y=place[1], z=place[2])
+    assert client.wait("MISSION_ACK").type == result

@@ -15,7 +15,7 @@ default:
 # everything from nothing: install, bring the mesh up, do one instruction, write out/demo/ (--seed N, --json, --keep)
 [group('start here')]
 demo *args: install
-    {{ python }} -m console demo "$@"
+    exec {{ python }} -m console demo "$@"
 
 # lint, types, import rules and all tests
 [group('start here')]
@@ -36,67 +36,67 @@ install:
 # start a site's mesh under supervision (default: a generated home; --seed N, --port N)
 [group('mesh')]
 up *args: install
-    {{ python }} -m console up "$@"
+    exec {{ python }} -m console up "$@"
 
 # stop the mesh
 [group('mesh')]
 down *args: install
-    {{ python }} -m console down "$@"
+    exec {{ python }} -m console down "$@"
 
 # which processes run, and are they well (--json)
 [group('mesh')]
 status *args: install
-    {{ python }} -m console status "$@"
+    exec {{ python }} -m console status "$@"
 
 # what processes say: logs [NAME] [-f] (--json)
 [group('mesh')]
 logs *args: install
-    {{ python }} -m console logs "$@"
+    exec {{ python }} -m console logs "$@"
 
 # restart one process: restart NAME
 [group('mesh')]
 restart *args: install
-    {{ python }} -m console restart "$@"
+    exec {{ python }} -m console restart "$@"
 
 # say what is to be done, in plain words; waits and shows progress (--json)
 [group('operate')]
 task *args: install
-    {{ python }} -m console task "$@"
+    exec {{ python }} -m console task "$@"
 
 # where is it believed to be, who said so, when, how sure (--json)
 [group('operate')]
 why *args: install
-    {{ python }} -m console why "$@"
+    exec {{ python }} -m console why "$@"
 
 # halt every robot and cancel all tasks
 [group('operate')]
 stop *args: install
-    {{ python }} -m console stop "$@"
+    exec {{ python }} -m console stop "$@"
 
 # halt the robots, keep the tasks
 [group('operate')]
 pause *args: install
-    {{ python }} -m console pause "$@"
+    exec {{ python }} -m console pause "$@"
 
 # go on after a pause
 [group('operate')]
 resume *args: install
-    {{ python }} -m console resume "$@"
+    exec {{ python }} -m console resume "$@"
 
 # cancel one task: cancel TASK
 [group('operate')]
 cancel *args: install
-    {{ python }} -m console cancel "$@"
+    exec {{ python }} -m console cancel "$@"
 
 # the fused world, live in a browser (prints the address) or in a window where there is a display (--json)
 [group('watch')]
 view *args: install
-    {{ python }} -m console view "$@"
+    exec {{ python }} -m console view "$@"
 
 # record what the view shows: record FILE.rrd (--json)
 [group('watch')]
 record *args: install
-    {{ python }} -m console record "$@"
+    exec {{ python }} -m console record "$@"
 
 # a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
 [group('fly')]
@@ -106,27 +106,27 @@ sitl *args: install
 # list the site files there are; `up NAME` starts one (--json)
 [group('sites')]
 sites *args: install
-    {{ python }} -m console sites "$@"
+    exec {{ python }} -m console sites "$@"
 
 # write the site file of a generated home: home --seed N --out FILE (--fault, --smart-appliances)
 [group('sites')]
 home *args: install
-    {{ python }} -m sim.generator "$@"
+    exec {{ python }} -m sim.generator "$@"
 
 # measure what the machine does: fusion, latency, physics, cameras, memory, presence (--json)
 [group('measure')]
 perf *args: install
-    {{ python }} -m bench.perf "$@"
+    exec {{ python }} -m bench.perf "$@"
 
 # the embedded detector's precision, recall, position error and state accuracy on held-out houses
 [group('measure')]
 measure-detector *args: install
-    {{ python }} -m sim.training.measure "$@"
+    exec {{ python }} -m sim.training.measure "$@"
 
 # the demo on many seeds: success, steps, path for each (--seeds 0-19)
 [group('measure')]
 demo-seeds *args: install
-    {{ python }} -m console demo-seeds "$@"
+    exec {{ python }} -m console demo-seeds "$@"
 
 # format the tree and rewrite the generated pages
 [group('develop')]

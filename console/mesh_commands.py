@@ -134,7 +134,8 @@ def flight_text(flyer: RobotState | None) -> str:
         return "  its autopilot is not heard"
     power = f"battery {flyer.battery:.0%}" if flyer.battery is not None else "battery not told"
     height = f"{flyer.position_enu_m[2]:.1f} m high" if flyer.airborne else "on the floor"
-    return f"  {height}, {power}"
+    flown = ", flown by hand" if flyer.status == "fault" else ""
+    return f"  {height}, {power}{flown}"
 
 
 def _line(row: ProcessInfo, device: str, announced: bool) -> str:

@@ -260,7 +260,7 @@ class Device:
         if self.hub_lost(now_s) or (pose is not None and pose.lost):
             return "lost"
         if self._job is None:
-            return "idle"
+            return "fault" if pose is not None and pose.taken else "idle"
         if self._job.cancelled:
             return "canceling"
         return "holding" if pose is not None and pose.standing_by_order else "executing"

@@ -40,6 +40,8 @@ class Pose:
     """What is left of it, 0 to 1."""
     lost: bool = False
     """What moves the body does not answer: the rest is what it said last."""
+    taken: bool = False
+    """A person steers it: nothing can be asked of it until it is given back."""
 
 
 class Worker(Protocol):

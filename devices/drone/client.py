@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections import deque
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from itertools import count
 from threading import Thread
 from typing import Any
@@ -44,11 +44,16 @@ class MavsdkPilot:
 
     def ask(self, order: Order) -> int:
         number = next(self._numbers)
-        self._loop.call_soon_threadsafe(self._begin, number, order)
+        self._pass(self._begin, number, order)
         return number
 
     def fly(self, setpoint: Setpoint) -> None:
-        self._loop.call_soon_threadsafe(self._pass_on, setpoint)
+        self._pass(self._pass_on, setpoint)
+
+    def _pass(self, what: Callable[..., None], *of: object) -> None:
+        """Into the thread; nowhere once that has failed, which `news` says."""
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(what, *of)
 
     def news(self) -> list[News]:
         """Raises what went wrong in the thread: nobody would notice it there."""

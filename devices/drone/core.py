@@ -44,6 +44,7 @@ class DroneCore:
         self._control_due_s = self._ask_due_s = 0.0
         self._lines, self._lost, self._said = 0, True, ""
         self._missed_s: float | None = None
+        self._by_hand = False
         """When it is told that there has been no autopilot from the start; infinite once that is settled."""
 
     def start(self, node: Node) -> None:
@@ -98,6 +99,10 @@ class DroneCore:
                 self._tell(f"found an autopilot: system {news.system}, {news.firmware}; {news.fault or 'ready'}")
 
     def _tell_of_losses(self) -> None:
+        if self.craft.by_hand != self._by_hand:
+            self._by_hand = self.craft.by_hand
+            left = "a person flies it: left alone until its mode is switched" if self._by_hand else "given back"
+            self._tell(f"{left} ({self.craft.mode})")
         if self.craft.lost != self._lost:
             self._lost = self.craft.lost
             link = self.craft.row.link

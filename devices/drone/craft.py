@@ -33,7 +33,8 @@ RECENT_S = 6.0
 MODE_S = 2.0
 """Heartbeats, which tell the mode, come every second."""
 STEERED = ("OFFBOARD", "UNKNOWN")
-OTHERS = ("RETURN_TO_LAUNCH", "LAND", "MISSION", "FOLLOW_ME", "MANUAL", "ALTCTL", "POSCTL", "ACRO", "STABILIZED")
+BY_HAND = ("MANUAL", "ALTCTL", "POSCTL", "ACRO", "STABILIZED")
+OTHERS = ("RETURN_TO_LAUNCH", "LAND", "MISSION", "FOLLOW_ME", *BY_HAND)
 """Modes in which the autopilot follows its own plan or a person's sticks."""
 ASK_AGAIN_S = 2.5
 
@@ -75,6 +76,8 @@ class Craft:
         self._landing: Ask | None = None
         self._landing_s = 0.0
         self._other_mode_s: float | None = None
+        self.by_hand = False
+        """A person has flown it, and has not given it back by another mode; on the ground neither."""
 
     # What the autopilot says
 
@@ -144,6 +147,11 @@ class Craft:
         """In a mode in which nothing is asked of it from here, and not because it was told to land."""
         return self._landing is None and self.telemetry is not None and self.telemetry.mode in OTHERS
 
+    @property
+    def mode(self) -> str:
+        """Of the autopilot, in words."""
+        return self.telemetry.mode.lower().replace("_", " ") if self.telemetry is not None else "another mode"
+
     def why(self) -> str:
         """What the autopilot warned of in the last seconds, as the end of a sentence; empty when there was nothing."""
         recent = [text for stamp_s, text in self._said if self.now_s - stamp_s < RECENT_S]
@@ -208,6 +216,7 @@ class Craft:
         if telemetry.position_enu_m is not None:
             self.position_m = telemetry.position_enu_m
             self._count(telemetry.position_enu_m)
+        self.by_hand = telemetry.mode in BY_HAND and (self.by_hand or self.airborne)
         if telemetry.mode in STEERED:
             self._other_mode_s = None
         elif self._other_mode_s is None:

@@ -182,8 +182,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
 
 
 def _taken_over(craft: Craft) -> Outcome:
-    mode = craft.telemetry.mode.lower().replace("_", " ") if craft.telemetry is not None else "another mode"
-    return failed("interrupted", f"the autopilot has gone over to {mode}{craft.why()}")
+    return failed("interrupted", f"the autopilot has gone over to {craft.mode}{craft.why()}")
 
 
 def _come_back(craft: Craft, where_m: Vec3) -> Trouble:

@@ -50,6 +50,8 @@ class DroneWorker:
             return f"{self._craft.id} cannot {command.action}; it can {', '.join(SKILLS)}"
         if command.room is not None and room_of(self._craft, command.room) is None:
             return f"there is no room {command.room} on the site"
+        if self._craft.by_hand:
+            return f"{self._craft.id} is flown by hand ({self._craft.mode}): switch its mode to give it back"
         return skill.fault_of(command)
 
     def begin(self, command: Command) -> None:
@@ -127,6 +129,7 @@ class DroneWorker:
             airborne=craft.airborne,
             battery=craft.telemetry.battery,
             lost=craft.lost,
+            taken=craft.by_hand,
         )
 
     @property

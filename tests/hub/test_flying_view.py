@@ -118,4 +118,5 @@ def test_the_terminal_tells_height_and_battery() -> None:
         flight_text(drone.model_copy(update={"airborne": False, "battery": None})) == "  on the floor, battery not told"
     )
     assert flight_text(drone.model_copy(update={"status": "lost"})) == "  its autopilot is not heard"
+    assert flight_text(drone.model_copy(update={"status": "fault"})) == "  1.5 m high, battery 61%, flown by hand"
     assert flight_text(None) == ""

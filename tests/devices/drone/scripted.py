@@ -127,11 +127,12 @@ class Flown:
             self.craft.hear(news)
 
     def begin(self, action: str, **fields: object) -> None:
-        given = {"epoch": 1, "robot": "drone-1", "valid_until_s": 1e6, "timeout_s": 60.0, **fields}
-        command = Command.model_validate({"goal_id": "g-1", "action": action, **given})
-        fault = self.worker.fault_of(command)
+        fault = self.fault_of(action, **fields)
         assert not fault, fault
-        self.worker.begin(command)
+        self.worker.begin(_command(action, **fields))
+
+    def fault_of(self, action: str, **fields: object) -> str:
+        return self.worker.fault_of(_command(action, **fields))
 
     def work(self, seconds: float) -> Outcome | None:
         """Until the goal ends, or that long."""
@@ -157,6 +158,11 @@ class Flown:
                 self.worker.halt()
             else:
                 self.worker.idle(self.now_s)
+
+
+def _command(action: str, **fields: object) -> Command:
+    given = {"epoch": 1, "robot": "drone-1", "valid_until_s": 1e6, "timeout_s": 60.0, **fields}
+    return Command.model_validate({"goal_id": "g-1", "action": action, **given})
 
 
 def kinds(flown: Flown) -> list[str]:

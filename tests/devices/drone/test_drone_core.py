@@ -95,6 +95,18 @@ def test_a_lost_autopilot_is_reported_and_told_of():
     assert hub.reports[-1].status == "idle"
 
 
+def test_a_drone_that_is_flown_by_hand_is_out_of_the_fleet_and_says_so():
+    pilot, _, hub, mesh = flying(6.0)
+    pilot.says = replace(pilot.says, mode="ALTCTL")
+    mesh.run(1.0)
+    assert hub.reports[-1].status == "fault"
+    assert "a person flies it: left alone until its mode is switched (altctl)" in hub.lines
+    pilot.says = replace(pilot.says, mode="HOLD")
+    mesh.run(1.0)
+    assert hub.reports[-1].status == "idle"
+    assert "given back (hold)" in hub.lines
+
+
 def test_what_the_autopilot_warns_of_is_passed_on_once():
     pilot, _, hub, mesh = flying(2.0)
     for _ in range(3):

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from math import dist, hypot, pi
 
-from devices.drone.pilot import Found, Hover, Land, Pictured, Said, Shoot, Steer, TakeOff
+from devices.drone.pilot import Found, Hover, Land, Pictured, Shoot, Steer, TakeOff
 from devices.drone.skills import SKILLS
 from tests.devices.drone.scripted import Flown, kinds
 from wire.frames import bearing_rad
@@ -121,33 +121,6 @@ def test_one_that_comes_along_fast_is_taken_up_where_it_can_stop():
     assert flown.do("goto", point_m=(3.0, 3.0)).status == "done"
     taken_up = next(order for order in flown.pilot.orders if isinstance(order, Steer))
     assert dist(taken_up.setpoint.position_enu_m, (3.0, 1.0, 1.5)) < 0.01
-
-
-def test_who_takes_over_is_left_alone():
-    flown = Flown()
-    flown.begin("goto", point_m=(7.0, 3.0))
-    flown.work(4.0)
-    flown.pilot.says = replace(flown.pilot.says, mode="RETURN_TO_LAUNCH")
-    flown.pilot.tell(Said("Failsafe: low battery", urgent=True))
-    outcome = flown.work(10.0)
-    assert outcome.code == "interrupted"
-    assert outcome.reason == "(7.0, 3.0): the autopilot has gone over to return to launch: Failsafe: low battery"
-    orders = len(flown.pilot.orders)
-    flown.pause(5.0)
-    assert len(flown.pilot.orders) == orders, "it flies home by itself"
-
-
-def test_who_takes_over_while_it_turns_is_left_alone_too():
-    flown = Flown()
-    flown.do("take_off")
-    flown.begin("goto", point_m=(1.0, 1.0), params={"yaw_deg": 180.0})
-    flown.work(1.5)
-    assert 0.1 < abs(flown.craft.yaw_rad) < 3.0
-    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")
-    outcome = flown.work(5.0)
-    assert outcome.code == "interrupted"
-    assert outcome.reason == "(1.0, 1.0): the autopilot has gone over to posctl"
-    assert kinds(flown)[-1] == "Steer"
 
 
 def test_traffic_makes_it_wait_and_step_aside():

@@ -1,6 +1,8 @@
 """The drone as its skills see it: what the autopilot says, and what is asked of it."""
 
 from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import dist, hypot
 
 from devices.drone.airspace import Airspace
@@ -58,6 +60,8 @@ class Craft:
         self.path_m: tuple[Vec2, ...] = ()
         self.path_heights_m: tuple[float, ...] = ()
         self.note, self.fraction = "", 0.0
+        self._part = (0.0, 1.0)
+        """The part of the goal that is at work."""
         self.travelled_m, self.action_steps = 0.0, 0
         self.pictures: deque[Pictured] = deque(maxlen=16)
         self.home_m: Vec3 | None = None
@@ -184,6 +188,26 @@ class Craft:
         elif not others and self.telemetry is not None and self.telemetry.armed:
             self.ask(Land())  # it was about to take off
             self.moving = False
+
+    def begin(self, note: str) -> None:
+        """A goal begins."""
+        self.note, self.fraction, self._part = note, 0.0, (0.0, 1.0)
+
+    def get_on(self, share: float) -> None:
+        """So much of the part at work is done; what has been told is not taken back."""
+        begun, ends = self._part
+        self.fraction = max(self.fraction, min(1.0, begun + share * (ends - begun)))
+
+    @contextmanager
+    def part(self, begins: float, ends: float) -> Iterator[None]:
+        """What happens inside is this much of the part at work."""
+        whole = self._part
+        span = whole[1] - whole[0]
+        self._part = (whole[0] + begins * span, whole[0] + ends * span)
+        try:
+            yield
+        finally:
+            self._part = whole
 
     @property
     def standing_m(self) -> Vec3:

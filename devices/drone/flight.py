@@ -24,6 +24,8 @@ LEAST_BATTERY = 0.2
 """Less than this and nothing new is begun."""
 READY_S = 4.0
 """What an autopilot says of its health comes with its heartbeats: just found, it may not have said yet."""
+TAKE_OFF_SHARE = 0.2
+"""Of the way to a place that is begun on the ground, as progress is told."""
 TAKE_OFF_S, NEAR_HEIGHT_M = 15.0, 0.2
 LATE_S = 5.0
 OFF_COURSE_M = 0.5
@@ -102,7 +104,7 @@ def get_up(craft: Craft, height_m: float) -> Trouble:
     craft.action_steps += 1
     deadline_s = craft.now_s + TAKE_OFF_S
     while craft.position_m[2] < begun_m + height_m - NEAR_HEIGHT_M or not craft.airborne:
-        craft.fraction = max(0.0, min(1.0, (craft.position_m[2] - begun_m) / height_m))
+        craft.get_on((craft.position_m[2] - begun_m) / height_m)
         if craft.now_s > deadline_s:
             return failed("driver", f"only {craft.position_m[2]:.1f} m high after {TAKE_OFF_S:.0f} s{craft.why()}")
         yield
@@ -113,8 +115,11 @@ def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limi
     """To a place; up first where it stands on the ground."""
     if fault := craft.space.fault(goal_m):
         return failed("unreachable", fault)
-    trouble = yield from get_up(craft, min(craft.cruise_m, craft.space.top_m(craft.position_m)))
-    return trouble or (yield from fly_to(craft, goal_m, facing, limits))
+    first = 0.0 if craft.airborne else TAKE_OFF_SHARE
+    with craft.part(0.0, first):
+        trouble = yield from get_up(craft, min(craft.cruise_m, craft.space.top_m(craft.position_m)))
+    with craft.part(first, 1.0):
+        return trouble or (yield from fly_to(craft, goal_m, facing, limits))
 
 
 def fly_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
@@ -170,7 +175,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
         craft.fly(Setpoint(position_m, velocity_mps, yaw_rad))
         craft.stop_m = follower.stop_m
         _tell_path(craft, course, follower.clock_s)
-        craft.fraction = follower.fraction
+        craft.get_on(follower.fraction)
         yield
         if craft.taken_over:
             return _taken_over(craft)

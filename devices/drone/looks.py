@@ -115,10 +115,12 @@ def orbit(craft: Craft, command: Command) -> Skilled:
     if fault := craft.space.first_fault(course.points_m):
         return failed("blocked", f"no room to fly around {name} at {params.radius_m:.1f} m: {fault}")
     craft.note = f"flying to {name}"
-    trouble = yield from go_to(craft, course.points_m[0])
+    with craft.part(0.0, 0.5):
+        trouble = yield from go_to(craft, course.points_m[0])
     trouble = trouble or (yield from face(craft, middle_m))
     craft.note = f"flying around {name}"
-    trouble = trouble or (yield from fly(craft, course, towards(middle_m)))
+    with craft.part(0.5, 1.0):
+        trouble = trouble or (yield from fly(craft, course, towards(middle_m)))
     return trouble or Outcome("done", "ok", f"flew around {name}", craft.position_m)
 
 
@@ -135,8 +137,8 @@ def construct_map(craft: Craft, command: Command) -> Skilled:
     taken, why = 0, ""
     for number, station in enumerate(stations):
         craft.note = f"surveying: station {number + 1} of {len(stations)}"
-        trouble = yield from go_to(craft, station, keep, Limits(speed_mps=SURVEY_MPS))
-        craft.fraction = number / len(stations)
+        with craft.part(number / len(stations), (number + 1) / len(stations)):
+            trouble = yield from go_to(craft, station, keep, Limits(speed_mps=SURVEY_MPS))
         if trouble is not None and trouble.code not in ("unreachable", "blocked"):
             return Outcome(trouble.status, trouble.code, f"after {taken} pictures: {trouble.reason}")
         if trouble is None:

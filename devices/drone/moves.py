@@ -137,9 +137,11 @@ def follow_path(craft: Craft, command: Command) -> Skilled:
     if fault := craft.space.first_fault(course.points_m):
         return failed("blocked", f"the curve through these points is blocked: {fault}")
     craft.note = "flying to the beginning of the path"
-    trouble = yield from go_to(craft, points[0])
+    with craft.part(0.0, 0.5):
+        trouble = yield from go_to(craft, points[0])
     craft.note = f"following the path of {course.length_m:.1f} m"
-    trouble = trouble or (yield from fly(craft, course, ahead))
+    with craft.part(0.5, 1.0):
+        trouble = trouble or (yield from fly(craft, course, ahead))
     return trouble or Outcome("done", "ok", f"flew {course.length_m:.1f} m of path", craft.position_m)
 
 

@@ -56,7 +56,8 @@ class DroneWorker:
 
     def begin(self, command: Command) -> None:
         craft = self._craft
-        craft.note, craft.fraction, self._gave_up = command.action, 0.0, ""
+        craft.begin(command.action)
+        self._gave_up = ""
         self._skill = SKILLS[command.action].run(craft, command)
 
     def work(self, now_s: float) -> Outcome | None:
@@ -134,7 +135,7 @@ class DroneWorker:
 
     @property
     def progress(self) -> tuple[float, str]:
-        return (max(0.0, min(1.0, self._craft.fraction)), self._craft.note)
+        return (self._craft.fraction, self._craft.note)
 
     def _step_aside(self) -> bool:
         """Whether this step went into clearing the way for somebody; on the ground nobody can be made way for."""

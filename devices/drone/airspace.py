@@ -1,7 +1,9 @@
 """Where a drone may be: inside rooms, clear of walls, below ceilings and lintels, clear of tall things."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, floor, hypot, inf
 
 from wire.model import Vec2, Vec3
@@ -94,6 +96,24 @@ class Airspace:
             around = ((x + i, y + j) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1))
             open.difference_update(cell for cell in around if _touches(thing, self.centre_m(cell)))
         return open
+
+    def without_things(self) -> "Airspace":
+        """The same building, empty."""
+        empty = copy(self)
+        empty.obstacles = {}
+        return empty
+
+    def in_the_way(self, corners_m: Sequence[Vec3]) -> list[str]:
+        """What stands in a way given by its corners."""
+        return [
+            id
+            for id, thing in self.obstacles.items()
+            if any(
+                thing.top_m + OVER_THING_M > min(a[2], b[2])
+                and segment_distance_m(thing.middle_m, a[:2], b[:2]) < thing.radius_m + NEEDED_M
+                for a, b in pairwise(corners_m)
+            )
+        ]
 
     def first_fault(self, points_m: Iterable[Vec3]) -> str:
         """What is wrong with the first point of a curve at which something is."""

@@ -6,11 +6,12 @@ They return None when all went well, and how the skill ends when not.
 from collections.abc import Callable, Generator
 from math import dist, hypot, inf
 
+from devices.drone.airspace import Airspace
 from devices.drone.course import DEFAULT, Course, Limits, along_legs
 from devices.drone.craft import Craft
 from devices.drone.follow import LONGEST_STEP_S, Follower, turned
 from devices.drone.pilot import Arm, Disarm, Order, Setpoint, Steer, TakeOff
-from devices.drone.route import find_way, nearest_open
+from devices.drone.route import Seeking, find_way, nearest_open
 from devices.worker import Outcome
 from wire.frames import bearing_rad, wrap_rad
 from wire.messages.command import ReasonCode
@@ -28,6 +29,8 @@ TAKE_OFF_SHARE = 0.2
 """Of the way to a place that is begun on the ground, as progress is told."""
 TAKE_OFF_S, NEAR_HEIGHT_M = 15.0, 0.2
 LATE_S = 5.0
+WAY_S, WAY_AGAIN_S = 12.0, 1.0
+"""How long to wait for things to be gone that stand in the way, or are wrongly believed to; how often to look."""
 OFF_COURSE_M = 0.5
 FACED_RAD = 0.08
 TURN_S = 10.0
@@ -127,12 +130,28 @@ def fly_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Lim
 
     For what is in the air: to go on, home or out of the way it needs no more battery than it has.
     """
-    start_m = craft.standing_m
-    way = yield from find_way(craft.space, start_m, goal_m, craft.row.flight_height_m, craft.level_m)
+    way, begun_s = (yield from _way(craft, craft.space, goal_m)), craft.now_s
     if way is None:
         where = f"({goal_m[0]:.1f}, {goal_m[1]:.1f}) at {goal_m[2]:.1f} m"
-        return failed("unreachable", f"there is no way to {where} that the drone fits through")
+        bare = yield from _way(craft, craft.space.without_things(), goal_m)
+        if bare is None:
+            return failed("unreachable", f"there is no way to {where} that the drone fits through")
+        while way is None:
+            things = ", ".join(craft.space.in_the_way(bare)) or "something"
+            craft.note = f"waiting for the way to {where}: {things}"
+            if craft.now_s - begun_s > WAY_S:
+                return failed("blocked", f"{things} is in the way")
+            asked_s = craft.now_s
+            while craft.now_s - asked_s < WAY_AGAIN_S:
+                yield
+                if craft.by_hand:
+                    return _taken_over(craft)
+            way = yield from _way(craft, craft.space, goal_m)
     return (yield from fly(craft, Course(along_legs(way), limits), facing or ahead))
+
+
+def _way(craft: Craft, space: Airspace, goal_m: Vec3) -> Seeking[Vec3]:
+    return (yield from find_way(space, craft.standing_m, goal_m, craft.row.flight_height_m, craft.level_m))
 
 
 def ahead(position_m: Vec3, velocity_mps: Vec3) -> float | None:

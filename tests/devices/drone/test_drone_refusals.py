@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from devices.drone.airspace import Obstacle
 from devices.drone.pilot import Arm, Found, Said, Steer
 from tests.devices.drone.scripted import Flown, kinds
 from wire.messages.command import Command
@@ -94,3 +95,34 @@ def test_wrong_parameters_are_refused_with_a_sentence(action, fields, words):
     given = {"epoch": 1, "robot": "drone-1", "valid_until_s": 1e6, "timeout_s": 60.0, **fields}
     command = Command.model_validate({"goal_id": "g-1", "action": action, **given})
     assert words in Flown().worker.fault_of(command)
+
+
+def test_what_stands_in_the_way_is_waited_for_and_named():
+    flown = Flown()
+    flown.do("take_off")
+    flown.craft.space.obstacles = things = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)}
+    flown.begin("goto", point_m=(7.0, 3.0))
+    assert flown.work(5.0) is None
+    assert flown.worker.progress[1] == "waiting for the way to (7.0, 3.0) at 1.5 m: obj-1"
+    assert "Steer" not in kinds(flown), "it hovers meanwhile"
+    things.clear()
+    outcome = flown.work(30.0)
+    assert outcome.code == "ok"
+
+
+def test_what_stays_in_the_way_ends_the_goal():
+    flown = Flown()
+    flown.craft.space.obstacles = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9), "obj-2": Obstacle((1.0, 3.5), 0.4, 1.9)}
+    outcome = flown.do("goto", point_m=(7.0, 3.0))
+    assert (outcome.code, outcome.reason) == ("blocked", "(7.0, 3.0): obj-1 is in the way")
+
+
+def test_who_takes_it_by_hand_while_it_waits_for_its_way_is_left_alone():
+    flown = Flown()
+    flown.do("take_off")
+    flown.craft.space.obstacles = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)}
+    flown.begin("goto", point_m=(7.0, 3.0))
+    flown.work(2.0)
+    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")
+    assert flown.work(2.0).code == "interrupted"
+    assert kinds(flown)[-1] != "Steer"

@@ -1,4 +1,4 @@
-"""What every skill is made of: getting up, flying a course, turning, coming down. Generators: one step at each `next`.
+"""What every skill is made of: getting up, flying a course, turning. Generators: one step at each `next`.
 
 They return None when all went well, and how the skill ends when not.
 """
@@ -11,7 +11,7 @@ from devices.drone.course import DEFAULT, Course, Limits, along_legs
 from devices.drone.craft import Craft
 from devices.drone.follow import LONGEST_STEP_S, Follower, turned
 from devices.drone.pilot import Arm, Disarm, Order, Setpoint, Steer, TakeOff
-from devices.drone.route import Seeking, find_way, nearest_open
+from devices.drone.route import Seeking, find_way
 from devices.worker import Outcome
 from wire.frames import bearing_rad, wrap_rad
 from wire.messages.command import ReasonCode
@@ -38,9 +38,6 @@ SIGHT_MPS = 0.2
 """Slower than this it is not turned into its way."""
 RIGHT_OVER_M = 0.2
 """Nearer than this beside a point, its bearing turns with every drift."""
-LANDED_S, LANDING_REFUSED_S = 4.0, 10.0
-SPOT_SLACK_M = 0.3
-"""As near as this to a place to land at is there."""
 STILL = (0.0, 0.0, 0.0)
 
 
@@ -111,7 +108,18 @@ def get_up(craft: Craft, height_m: float) -> Trouble:
         if craft.now_s > deadline_s:
             return failed("driver", f"only {craft.position_m[2]:.1f} m high after {TAKE_OFF_S:.0f} s{craft.why()}")
         yield
+        if craft.airborne and not craft.moving:  # halted or led aside: the autopilot does not climb on by itself
+            return (yield from _climb_on(craft, begun_m + height_m))
     return None
+
+
+def _climb_on(craft: Craft, height_m: float) -> Trouble:
+    while craft.column_taken:
+        craft.note = "waiting to climb on: somebody is over it"
+        yield
+    x, y, z = craft.standing_m
+    top_m = max(z, min(height_m, craft.space.top_m((x, y))))
+    return (yield from fly(craft, Course(along_legs([(x, y, z), (x, y, top_m)]), DEFAULT), keep))
 
 
 def go_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Limits = DEFAULT) -> Trouble:
@@ -247,43 +255,6 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
             return _taken_over(craft)
         if craft.now_s - begun_s > TURN_S:
             return failed("driver", f"does not turn{craft.why()}")
-    return None
-
-
-def come_down(craft: Craft) -> Trouble:
-    """Land where it is, or near by where somebody stands below, and rotors off."""
-    trouble = yield from _find_ground(craft)
-    if trouble is not None:
-        return trouble
-    begun_s = craft.now_s
-    while craft.airborne:
-        craft.note = "landing"
-        craft.land()
-        if craft.landing_refused and craft.now_s - begun_s > LANDING_REFUSED_S:
-            return failed("driver", f"the autopilot does not land: {craft.landing_refused}{craft.why()}")
-        yield
-    down_s = craft.now_s
-    while craft.telemetry is not None and craft.telemetry.armed:
-        if craft.now_s - down_s > LANDED_S:
-            yield from obey(craft, Disarm())
-            down_s = craft.now_s
-        yield
-    return None
-
-
-def _find_ground(craft: Craft) -> Trouble:
-    """Wait until nobody is below, or fly to where nobody is. What was begun is landed where it is."""
-    while craft.airborne and not craft.landing and craft.column_taken:
-        craft.note = "waiting to land: it is not free below"
-        spot_m = craft.order.land_at_m if craft.order is not None else None
-        goal_m = nearest_open(craft.space, (*spot_m, craft.position_m[2]), SPOT_SLACK_M) if spot_m is not None else None
-        if goal_m is not None and dist(goal_m, craft.position_m) > SPOT_SLACK_M:
-            craft.note = "flying to where it is free to land"
-            trouble = yield from fly_to(craft, goal_m)
-            if trouble is not None:
-                return trouble
-        else:
-            yield
     return None
 
 

@@ -7,7 +7,8 @@ from pydantic import Field, field_validator, model_validator
 
 from devices.drone.course import Course, Limits
 from devices.drone.craft import Craft
-from devices.drone.flight import ahead, come_down, face, failed, fly, fly_to, get_up, go_to, turn
+from devices.drone.flight import ahead, face, failed, fly, fly_to, get_up, go_to, turn
+from devices.drone.landing import come_down
 from devices.drone.places import near_target, place_of
 from devices.drone.spline import through
 from devices.worker import Outcome

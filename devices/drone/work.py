@@ -147,7 +147,8 @@ class DroneWorker:
                 craft.hover()
             return False
         if self._aside_m is None or dist(wanted, self._aside_m) > ASIDE_AGAIN_M:
-            goal_m = nearest_open(craft.space, (*wanted, craft.position_m[2]), ASIDE_SLACK_M)
+            height_m = max(craft.position_m[2], min(craft.row.flight_height_m, craft.space.top_m(craft.position_m)))
+            goal_m = nearest_open(craft.space, (*wanted, height_m), ASIDE_SLACK_M)
             craft.hover()
             self._aside_m, self._aside = wanted, fly_to(craft, goal_m) if goal_m is not None else None
         if self._aside is not None and next(self._aside, THROUGH) is THROUGH:

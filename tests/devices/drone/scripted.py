@@ -43,6 +43,9 @@ class ScriptedPilot:
         self.picture = Pictured(7, True)
         self.sinks_mps: float | None = None
         """So fast it comes down when it is told to land; at once when it is None."""
+        self.climbs_mps: float | None = None
+        """So fast it takes off; at once when it is None."""
+        self._up_m: float | None = None
         self._news: list[News] = [Found(1, "px4")]
 
     def start(self) -> None: ...
@@ -76,6 +79,8 @@ class ScriptedPilot:
         news, self._news = self._news, []
         if self.says.landed == "landing":
             self._sink()
+        if self._up_m is not None:
+            self._climb(self._up_m)
         return [] if self.silent else [*news, self.says]
 
     def _sink(self) -> None:
@@ -86,6 +91,14 @@ class ScriptedPilot:
         else:
             self._touch_down(x, y)
 
+    def _climb(self, up_m: float) -> None:
+        x, y, z = self.says.position_enu_m or (0.0, 0.0, 0.0)
+        if self.says.mode == "TAKEOFF" and z < up_m:
+            higher_m = min(up_m, z + (self.climbs_mps or 0.0) * STEP_S)
+            self.says = replace(self.says, position_enu_m=(x, y, higher_m), landed="taking_off")
+        else:
+            self._up_m = None
+
     def _touch_down(self, x: float, y: float) -> None:
         self.says = replace(self.says, position_enu_m=(x, y, 0.0), landed="on_ground", armed=False, mode="LAND")
 
@@ -94,6 +107,9 @@ class ScriptedPilot:
         match order:
             case Arm() | Disarm():
                 self.says = replace(self.says, armed=isinstance(order, Arm))
+            case TakeOff() if self.climbs_mps is not None:
+                self._up_m = z + order.height_m
+                self.says = replace(self.says, mode="TAKEOFF")
             case TakeOff():
                 up_m = (x, y, z + order.height_m)
                 self.says = replace(self.says, position_enu_m=up_m, landed="in_air", mode="HOLD")

@@ -41,8 +41,12 @@ def check(item: Item, now: Situation) -> int:
 
 
 def check_rally(item: Item, now: Situation) -> int:
-    """MAV_MISSION_RESULT of one rally point."""
-    return _check_place(item, now) if item.command == RALLY_POINT else UNSUPPORTED
+    """MAV_MISSION_RESULT of one rally point; zeros, which elsewhere mean where it is, are nowhere to come back to."""
+    if item.command != RALLY_POINT:
+        return UNSUPPORTED
+    if item.frame in GLOBAL_FRAMES and item.x == 0.0 and item.y == 0.0:
+        return X
+    return _check_place(item, now)
 
 
 def spot(item: Item, now: Situation) -> Vec3 | str | None:

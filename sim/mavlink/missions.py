@@ -20,6 +20,16 @@ from sim.mavlink.craft import Craft, Sender
 from sim.mavlink.pack import finite, u16
 from sim.mavlink.peer import Message
 
+WHY = {
+    mav.MAV_MISSION_UNSUPPORTED_FRAME: "its frame is of no use for it",
+    mav.MAV_MISSION_UNSUPPORTED: "this vehicle cannot do that",
+    mav.MAV_MISSION_INVALID: "its numbers make no sense",
+    **{mav.MAV_MISSION_INVALID_PARAM1 + k: f"its param {k + 1} makes no sense" for k in range(4)},
+    mav.MAV_MISSION_INVALID_PARAM5_X: "its latitude or x is nowhere it can be",
+    mav.MAV_MISSION_INVALID_PARAM6_Y: "its longitude or y is nowhere it can be",
+    mav.MAV_MISSION_INVALID_PARAM7: "its altitude or z makes no sense",
+}
+"""By MAV_MISSION_RESULT."""
 AGAIN_S = 0.7
 TRIES = 5
 MOST_ITEMS = {0: 700, 1: 250, 2: 50}
@@ -116,7 +126,8 @@ class Missions:
         if result:
             self._upload = None
             self._ack(sender, result, kind)
-            self._craft.complain(f"{NAMES[kind]} item {item.seq}, command {item.command}: refused", now_s)
+            why = WHY.get(result, "refused")
+            self._craft.complain(f"{NAMES[kind]} item {item.seq}, command {item.command}: {why}", now_s)
             return
         upload.items.append(item)
         upload.tries = 0

@@ -165,6 +165,8 @@ def test_items_are_checked(rig):
     assert check(1, item(0, 5003, 1.0, 1.0, params=(1, 0, 0, 0), frame=2)) == 2
     assert check(2, item(0, 5100, *ZURICH[:2], 1.0, frame=3)) == 0
     assert check(2, item(0, 16)) == 3
+    assert check(2, item(0, 5100, 0.0, 0.0, 1.0, frame=3)) == 10
+    assert check(2, item(0, 5100, 0.0, 0.0, -1.0)) == 0, "the site's own origin is a place"
 
 
 def test_a_bad_upload_leaves_the_old_plan(rig):

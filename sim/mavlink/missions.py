@@ -18,6 +18,7 @@ from sim.autopilot.interface import Ack, Command, Item, Plan, Severity
 from sim.mavlink import items, status
 from sim.mavlink.craft import Craft, Sender
 from sim.mavlink.pack import finite, u16
+from sim.mavlink.payload import Payload
 from sim.mavlink.peer import Message
 
 WHY = {
@@ -30,6 +31,8 @@ WHY = {
     mav.MAV_MISSION_INVALID_PARAM7: "its altitude or z makes no sense",
 }
 """By MAV_MISSION_RESULT."""
+VIDEOS = (mav.MAV_CMD_VIDEO_START_CAPTURE, mav.MAV_CMD_VIDEO_STOP_CAPTURE)
+VIDEO = "the camera takes pictures only, no video"
 AGAIN_S = 0.7
 TRIES = 5
 MOST_ITEMS = {0: 700, 1: 250, 2: 50}
@@ -54,8 +57,9 @@ class Upload:
 class Missions:
     """One vehicle's plans on the wire."""
 
-    def __init__(self, craft: Craft) -> None:
+    def __init__(self, craft: Craft, payload: Payload) -> None:
         self._craft = craft
+        self._payload = payload
         self._upload: Upload | None = None
 
     def _ack(self, to: Sender, result: int, kind: int) -> None:
@@ -126,7 +130,7 @@ class Missions:
         if result:
             self._upload = None
             self._ack(sender, result, kind)
-            why = WHY.get(result, "refused")
+            why = VIDEO if item.command in VIDEOS else WHY.get(result, "refused")
             self._craft.complain(f"{NAMES[kind]} item {item.seq}, command {item.command}: {why}", now_s)
             return
         upload.items.append(item)
@@ -140,7 +144,8 @@ class Missions:
     def _check(self, kind: Plan, item: Item) -> int:
         if any(abs(value) == float("inf") for value in (*item.params, item.x, item.y, item.z)):
             return int(mav.MAV_MISSION_INVALID)
-        return self._craft.autopilot.check_item(kind, item)
+        result = self._craft.autopilot.check_item(kind, item)
+        return result if result or kind != 0 else self._payload.check(item)
 
     def _go(self, message: Message, sender: Sender, now_s: float) -> None:
         item = items.read(message)

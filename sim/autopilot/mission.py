@@ -10,11 +10,10 @@ from sim.flight.state import Vec3
 
 WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, RETURN, LAND, TAKEOFF, DELAY = 16, 17, 18, 19, 20, 21, 22, 93
 YAW, JUMP, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION = 115, 177, 178, 179, 195, 197, 201
-LOITER_TO_HEIGHT, SPLINE, LAND_START = 31, 82, 189
+LOITER_TO_HEIGHT, SPLINE, LAND_START, GATE = 31, 82, 189, 4501
 """MAV_CMD."""
-AT_A_PLACE = frozenset(
-    {WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, LAND, TAKEOFF, REGION_AT, LOITER_TO_HEIGHT, SPLINE}
-)
+FLOWN_TO = frozenset({WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, LAND, TAKEOFF, LOITER_TO_HEIGHT, SPLINE})
+AT_A_PLACE = FLOWN_TO | {REGION_AT, GATE}
 PAYLOAD = frozenset({203, 204, 205, 206, 530, 1000, 1001, 2000, 2001})
 """Digicam, mount configure and control, pictures by distance, camera mode, gimbal angles, who controls it, pictures and
 their end. Handed on to camera and gimbal, who have looked at the numbers when they were uploaded."""
@@ -31,7 +30,7 @@ def check(item: Item, now: Situation) -> int:
     """MAV_MISSION_RESULT of one mission item."""
     if item.command in PAYLOAD:
         return ACCEPTED
-    if item.command not in AT_A_PLACE | _WITHOUT or (item.command == SPLINE and not now.row.splines):
+    if item.command not in AT_A_PLACE | _WITHOUT or item.command in now.row.unknown_items:
         return UNSUPPORTED
     first, second = item.params[0], item.params[1]
     wrong_first = (
@@ -69,7 +68,7 @@ def spot(item: Item, now: Situation) -> Vec3 | str | None:
 def _check_place(item: Item, now: Situation) -> int:
     if item.command == TAKEOFF and item.frame not in GLOBAL_FRAMES | {1}:
         return FRAME
-    here_allowed = item.command not in (WAYPOINT, SPLINE, REGION_AT, RALLY_POINT)
+    here_allowed = item.command not in (WAYPOINT, SPLINE, REGION_AT, GATE, RALLY_POINT)
     if math.isinf(item.x) or (math.isnan(item.x) and not here_allowed):
         return X
     if math.isinf(item.y) or (math.isnan(item.y) and not here_allowed):
@@ -145,7 +144,7 @@ class Mission:
         for item in self.items[self.current + 1 :]:
             if item.command in _STOPS:
                 return None
-            if item.command in AT_A_PLACE and item.command != REGION_AT:
+            if item.command in FLOWN_TO:
                 return item
         return None
 

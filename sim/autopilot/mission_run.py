@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 from sim.autopilot.flying import REACHED_M, Activity, Circle, Climb, Descend, GoHome, Hover, Travel
 from sim.autopilot.interface import Command, Item, Severity
+from sim.autopilot.legs import Gate, Landing, ThenHeight
 from sim.autopilot.mission import (
     DELAY,
+    GATE,
     JUMP,
     LAND,
     LAND_START,
@@ -108,7 +110,8 @@ class MissionRun:
         elif item.command in PAYLOAD:
             now.payload.append(Command(item.command, item.params, item.x, item.y, item.z, item.frame))
             self.mission.advance()
-        elif item.command == LAND_START:  # says to those who read the mission where its landing begins
+        elif item.command == LAND_START or (item.command == GATE and self._onward(now, now.here[2]) is None):
+            # The one says where the landing begins to those who read the mission; the other leads nowhere.
             self.mission.advance()
         elif item.command in (YAW, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION):
             self._set(item, now)
@@ -133,6 +136,9 @@ class MissionRun:
             lowest = now.above_start(LOWEST_FLIGHT_M) if now.vehicle.on_ground else now.home[2] - LOWEST_FLIGHT_M
             down = min(target[2], lowest)
             return Climb(now.below_ceiling((0.0, 0.0, down))[2])
+        if item.command == GATE:
+            onward = self._onward(now, now.here[2]) or now.here
+            return Gate(target, Travel(onward, now.quantity("acceptance_m"), self._nose(item, onward, now)))
         target = _above_floor(target, now)
         if item.command == LOITER_TO_HEIGHT:
             radius = now.quantity("acceptance_m")
@@ -151,15 +157,19 @@ class MissionRun:
             radius = max(0.05, item.params[1])
         return Travel(target, radius, self._nose(item, target, now))
 
-    def _leaving(self, target: Vec3, now: Situation) -> Vec3:
-        """The slope of a spline at its end."""
-        item = None if self._stay_s > 0.0 else self.mission.following()
+    def _onward(self, now: Situation, down_m: float) -> Vec3 | None:
+        """Where it will fly to after the current item, if nothing stops it before; to a landing at this height."""
+        item = self.mission.following()
         found = None if item is None else spot(item, now)
         if item is None or not isinstance(found, tuple):
-            return leaving(now.here, target, None, False)
-        height = target[2] if item.command == LAND else found[2]
-        following = _above_floor((found[0], found[1], height), now)
-        return leaving(now.here, target, following, item.command == SPLINE)
+            return None
+        return _above_floor((found[0], found[1], down_m if item.command == LAND else found[2]), now)
+
+    def _leaving(self, target: Vec3, now: Situation) -> Vec3:
+        """The slope of a spline at its end."""
+        item = self.mission.following()
+        onward = None if self._stay_s > 0.0 else self._onward(now, target[2])
+        return leaving(now.here, target, onward, item is not None and item.command == SPLINE)
 
     def _nose(self, item: Item, target: Vec3, now: Situation) -> float | None:
         """PX4's waypoints may say a heading; else CONDITION_YAW's, else along the way."""
@@ -192,46 +202,3 @@ class MissionRun:
 def _above_floor(place: Vec3, now: Situation) -> Vec3:
     """The place between floor and ceiling."""
     return now.below_ceiling((place[0], place[1], min(place[2], -0.2)))
-
-
-@dataclass(slots=True)
-class ThenHeight:
-    """Go above or below a place as high as it is, then straight to the place's height."""
-
-    way: Travel
-    rise: Travel
-
-    @property
-    def done(self) -> bool:
-        return self.rise.done
-
-    @property
-    def place_ned_m(self) -> Vec3:
-        return self.rise.place_ned_m
-
-    def step(self, now: Situation, now_s: float) -> Setpoint:
-        return (self.rise if self.way.done else self.way).step(now, now_s)
-
-
-@dataclass(slots=True)
-class Landing:
-    """Go above a place, then land there."""
-
-    way: Travel
-    landing: Descend
-
-    @property
-    def done(self) -> bool:
-        return self.landing.done
-
-    @property
-    def place_ned_m(self) -> Vec3:
-        return self.way.place_ned_m
-
-    def step(self, now: Situation, now_s: float) -> Setpoint:
-        if not self.way.done and not now.vehicle.on_ground and now.estimate.position_ok:
-            setpoint = self.way.step(now, now_s)
-            if self.way.done:
-                self.landing.place_ned_m = self.way.place_ned_m
-            return setpoint
-        return self.landing.step(now, now_s)

@@ -34,31 +34,31 @@ class Flight:
 
     def __init__(self, options: Options) -> None:
         self.steps = 0
+        yaw_rad = heading_to_yaw_rad(radians(options.home[3]))
         starts: Sequence[tuple[tuple[float, float], float]]
         if options.house is None:
             self._bullet: Any = open_bullet()
             add_floor(self._bullet, FLOOR, EVERYTHING)
-            yaw_rad = heading_to_yaw_rad(radians(options.home[3]))
             starts = [((APART_M * k, 0.0), yaw_rad) for k in range(options.vehicles)]
             ceiling_m = inf
         else:
             scene = make_home(options.house)
             self._bullet = Physics(scene, ()).bullet
-            starts = scene.robot_starts
+            starts = [(at, yaw_rad if options.turned else own_rad) for at, own_rad in scene.robot_starts]
             ceiling_m = max(wall.height_m for wall in scene.walls)
         self.vehicles = [
             Quadrotor(
                 self._bullet,
                 f"drone-{k + 1}",
                 (x, y, 0.0),
-                yaw_rad,
+                start_rad,
                 options.seed + k,
                 FIRST_ROBOT << k,
                 EVERYTHING,
                 options.gps == "fused",
                 options.home[2],
             )
-            for k, ((x, y), yaw_rad) in enumerate(starts[: options.vehicles])
+            for k, ((x, y), start_rad) in enumerate(starts[: options.vehicles])
         ]
         row = PERSONALITIES[options.firmware]
         self.firmwares = [

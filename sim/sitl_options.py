@@ -28,6 +28,8 @@ class Options:
     gps: Literal["fused", "none"]
     home: tuple[float, float, float, float]
     """Latitude and longitude in degrees, altitude in metres AMSL, heading in degrees."""
+    turned: bool
+    """The heading was asked for: vehicles stand so even where the scene has headings of its own."""
     seed: int
     house: int | None
     """Seed of the home flown in; None for a bare floor."""
@@ -129,7 +131,13 @@ def parse(argv: list[str] | None) -> Options:
     add("--udp-in", type=_port, action="append", default=[], metavar="PORT", help="answer whoever sends here")
     add("--vehicles", type=vehicle_count, default=1, metavar="N", help="how many, with system ids from 1")
     add("--gps", choices=("fused", "none"), default="fused", help="indoor position as a GPS fix, or none at all")
-    add("--home", type=_home, default=None, metavar="LAT,LON,ALT,YAW", help="where the origin lies (Zurich)")
+    add(
+        "--home",
+        type=_home,
+        default=None,
+        metavar="LAT,LON,ALT,YAW",
+        help="where the origin lies (Zurich), and the way they face",
+    )
     add("--seed", type=_seed, default=0, metavar="N", help="of the sensors' noise")
     add("--scene", type=_scene, default=None, metavar="home:SEED|empty", help="a furnished home, or a bare floor")
     shown = "show a camera and a gimbal (on for px4; off for ardupilot, as dronekit is confused by them)"
@@ -156,6 +164,7 @@ def parse(argv: list[str] | None) -> Options:
         vehicles=given.vehicles,
         gps=given.gps,
         home=given.home or ZURICH,
+        turned=given.home is not None,
         seed=given.seed,
         house=cast("int | None", given.scene),
         camera=given.firmware == "px4" if given.camera is None else given.camera == "on",

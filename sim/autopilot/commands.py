@@ -6,7 +6,6 @@ from collections.abc import Callable
 from sim.autopilot import orders
 from sim.autopilot.arming import FORCE, reasons
 from sim.autopilot.conduct import Conduct
-from sim.autopilot.geo import place
 from sim.autopilot.interface import Ack, Answer, Command, Severity
 
 _ACCEPTED = orders.ACCEPTED
@@ -66,13 +65,9 @@ def _home(conduct: Conduct, command: Command, now_s: float) -> Answer:
         conduct.home_here()
         now.home_kept = True
         return _ACCEPTED
-    found = place(
-        0 if command.frame is None else command.frame, command.x, command.y, command.z, now.origin, now.home, now.here
-    )
-    if found is None:
-        return Answer(Ack.UNSUPPORTED_FRAME)
-    if isinstance(found, str):
-        return Answer(Ack.DENIED, f"Home refused: {found}")
+    found = orders.named_place(now, command, "Home")
+    if isinstance(found, Answer):
+        return found
     now.home_ned_m, now.home_kept = found, True
     return _ACCEPTED
 
@@ -82,13 +77,9 @@ def _region(conduct: Conduct, command: Command, now_s: float) -> Answer:
     now = conduct.now
     if math.isnan(command.x) or math.isnan(command.y):
         return Answer(Ack.DENIED, "Region of interest refused: it needs a place")
-    found = place(
-        0 if command.frame is None else command.frame, command.x, command.y, command.z, now.origin, now.home, now.here
-    )
-    if found is None:
-        return Answer(Ack.UNSUPPORTED_FRAME)
-    if isinstance(found, str):
-        return Answer(Ack.DENIED, f"Region of interest refused: {found}")
+    found = orders.named_place(now, command, "Region of interest")
+    if isinstance(found, Answer):
+        return found
     now.region_ned_m = found
     return _ACCEPTED
 

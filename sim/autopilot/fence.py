@@ -5,14 +5,16 @@ from dataclasses import dataclass
 from typing import Literal
 
 from sim.autopilot.geo import place
-from sim.autopilot.interface import Item
+from sim.autopilot.interface import Item, Severity
 from sim.autopilot.situation import CLEARANCE_M, Situation
 from sim.flight.state import Vec3
 
 RETURN_POINT, POLYGON_IN, POLYGON_OUT, CIRCLE_IN, CIRCLE_OUT = 5000, 5001, 5002, 5003, 5004
 """MAV_CMD_NAV_FENCE_*."""
-_ACCEPTED, _ERROR, _FRAME, _UNSUPPORTED, _PARAM1, _X, _Y = 0, 1, 2, 3, 6, 10, 11
+_ACCEPTED, _ERROR, _FRAME, _UNSUPPORTED, _INVALID, _PARAM1, _X, _Y = 0, 1, 2, 3, 5, 6, 10, 11
 """MAV_MISSION_RESULT."""
+_NARROWEST_M = 0.05
+"""What is narrower holds nothing: corners on one line, but for what rounding the degrees makes of them."""
 _POINTS_MAX = 200
 
 
@@ -55,7 +57,7 @@ def check(item: Item, now: Situation) -> int:
     if item.command in (POLYGON_IN, POLYGON_OUT):
         if not 3 <= item.params[0] <= _POINTS_MAX or item.params[0] != int(item.params[0]):
             return _PARAM1
-    elif not 0.0 < item.params[0] < 1e5:
+    elif not _NARROWEST_M <= item.params[0] < 1e5:
         return _PARAM1
     if not math.isfinite(item.x):
         return _X
@@ -92,9 +94,20 @@ def zones(items: list[Item], now: Situation) -> list[Zone] | int:
         command, size = item.command, item.params[0]
         corners.append((point[0], point[1]))
         if len(corners) == int(size):
+            if _width_m(corners) < _NARROWEST_M:
+                now.say(Severity.WARNING, "Fence: the corners of a polygon lie on one line, it holds nothing")
+                return _INVALID
             found.append(Polygon(command == POLYGON_IN, tuple(corners)))
             corners = []
     return _ERROR if corners else found
+
+
+def _width_m(corners: list[tuple[float, float]]) -> float:
+    """How far corners lie from the line through the first and the one farthest from it."""
+    north, east = corners[0]
+    along = max(((n - north, e - east) for n, e in corners), key=lambda way: math.hypot(*way))
+    length = math.hypot(*along)
+    return max(abs(along[0] * (e - east) - along[1] * (n - north)) for n, e in corners) / length if length else 0.0
 
 
 def breach(now: Situation, fence: list[Zone]) -> str:

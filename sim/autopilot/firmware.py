@@ -132,6 +132,10 @@ class Firmware(Conduct):
         reached, self.plans.mission.reached = self.plans.mission.reached, []
         return reached
 
+    def payload(self) -> list[Command]:
+        wanted, self.now.payload = self.now.payload, []
+        return wanted
+
     def progress(self) -> list[tuple[int, Ack, int]]:
         progress, self.news = self.news, []
         return progress

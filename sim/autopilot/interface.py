@@ -175,6 +175,10 @@ class Autopilot(Protocol):
         """Mission items reached since the last call."""
         ...
 
+    def payload(self) -> list[Command]:
+        """What the mission wants of camera and gimbal, since the last call."""
+        ...
+
     def progress(self) -> list[tuple[int, Ack, int]]:
         """(command, result, percent) of commands that were in progress, since the last call."""
         ...

@@ -10,9 +10,15 @@ from sim.flight.state import Vec3
 
 WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, RETURN, LAND, TAKEOFF, DELAY = 16, 17, 18, 19, 20, 21, 22, 93
 YAW, JUMP, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION = 115, 177, 178, 179, 195, 197, 201
+LOITER_TO_HEIGHT, SPLINE, LAND_START, GATE = 31, 82, 189, 4501
 """MAV_CMD."""
-AT_A_PLACE = frozenset({WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, LAND, TAKEOFF, REGION_AT})
-_WITHOUT = frozenset({RETURN, DELAY, YAW, JUMP, SPEED, SET_HOME, REGION_NONE, REGION})
+FLOWN_TO = frozenset({WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, LAND, TAKEOFF, LOITER_TO_HEIGHT, SPLINE})
+AT_A_PLACE = FLOWN_TO | {REGION_AT, GATE}
+PAYLOAD = frozenset({203, 204, 205, 206, 530, 1000, 1001, 2000, 2001})
+"""Digicam, mount configure and control, pictures by distance, camera mode, gimbal angles, who controls it, pictures and
+their end. Handed on to camera and gimbal, who have looked at the numbers when they were uploaded."""
+_WITHOUT = frozenset({RETURN, DELAY, YAW, JUMP, SPEED, SET_HOME, REGION_NONE, REGION, LAND_START})
+_STOPS = frozenset({RETURN, DELAY, JUMP, TAKEOFF})
 ACCEPTED, ERROR, FRAME, UNSUPPORTED, NO_SPACE = 0, 1, 2, 3, 4
 PARAM1, PARAM2, X, Y, Z, SEQUENCE = 6, 7, 10, 11, 12, 13
 """MAV_MISSION_RESULT."""
@@ -22,12 +28,14 @@ RALLY_POINT = 5100
 
 def check(item: Item, now: Situation) -> int:
     """MAV_MISSION_RESULT of one mission item."""
-    if item.command not in AT_A_PLACE | _WITHOUT:
+    if item.command in PAYLOAD:
+        return ACCEPTED
+    if item.command not in AT_A_PLACE | _WITHOUT or item.command in now.row.unknown_items:
         return UNSUPPORTED
     first, second = item.params[0], item.params[1]
     wrong_first = (
         (item.command in (DELAY, LOITER_TIME, LOITER_TURNS) and not 0.0 <= first <= 86400.0)
-        or (item.command == WAYPOINT and not (math.isnan(first) or 0.0 <= first <= 86400.0))
+        or (item.command in (WAYPOINT, SPLINE) and not (math.isnan(first) or 0.0 <= first <= 86400.0))
         or (item.command == JUMP and not (0.0 <= first < ITEMS_MAX and first == int(first) and first != item.seq))
         or (item.command == YAW and not abs(first) <= 360.0)
     )
@@ -41,8 +49,12 @@ def check(item: Item, now: Situation) -> int:
 
 
 def check_rally(item: Item, now: Situation) -> int:
-    """MAV_MISSION_RESULT of one rally point."""
-    return _check_place(item, now) if item.command == RALLY_POINT else UNSUPPORTED
+    """MAV_MISSION_RESULT of one rally point; zeros, which elsewhere mean where it is, are nowhere to come back to."""
+    if item.command != RALLY_POINT:
+        return UNSUPPORTED
+    if item.frame in GLOBAL_FRAMES and item.x == 0.0 and item.y == 0.0:
+        return X
+    return _check_place(item, now)
 
 
 def spot(item: Item, now: Situation) -> Vec3 | str | None:
@@ -56,7 +68,7 @@ def spot(item: Item, now: Situation) -> Vec3 | str | None:
 def _check_place(item: Item, now: Situation) -> int:
     if item.command == TAKEOFF and item.frame not in GLOBAL_FRAMES | {1}:
         return FRAME
-    here_allowed = item.command not in (WAYPOINT, REGION_AT, RALLY_POINT)
+    here_allowed = item.command not in (WAYPOINT, SPLINE, REGION_AT, GATE, RALLY_POINT)
     if math.isinf(item.x) or (math.isnan(item.x) and not here_allowed):
         return X
     if math.isinf(item.y) or (math.isnan(item.y) and not here_allowed):
@@ -126,6 +138,15 @@ class Mission:
             self.finished = True
         else:
             self.current += 1
+
+    def following(self) -> Item | None:
+        """The item that is flown to after the current one, when nothing in between stops it or leads elsewhere."""
+        for item in self.items[self.current + 1 :]:
+            if item.command in _STOPS:
+                return None
+            if item.command in FLOWN_TO:
+                return item
+        return None
 
     def jump(self, item: Item) -> None:
         """To the item that it names, as often as it says; then on."""

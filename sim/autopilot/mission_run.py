@@ -3,27 +3,34 @@
 import math
 from dataclasses import dataclass
 
-from sim.autopilot.flying import Activity, Circle, Climb, Descend, GoHome, Hover, Travel
-from sim.autopilot.interface import Item, Severity
+from sim.autopilot.flying import REACHED_M, Activity, Circle, Climb, Descend, GoHome, Hover, Travel
+from sim.autopilot.interface import Command, Item, Severity
+from sim.autopilot.legs import Gate, Landing, ThenHeight
 from sim.autopilot.mission import (
     DELAY,
+    GATE,
     JUMP,
     LAND,
+    LAND_START,
     LOITER,
     LOITER_TIME,
+    LOITER_TO_HEIGHT,
     LOITER_TURNS,
+    PAYLOAD,
     REGION,
     REGION_AT,
     REGION_NONE,
     RETURN,
     SET_HOME,
     SPEED,
+    SPLINE,
     TAKEOFF,
     YAW,
     Mission,
     spot,
 )
 from sim.autopilot.situation import LOWEST_FLIGHT_M, Situation
+from sim.autopilot.spline import Curve, leaving
 from sim.flight.state import Setpoint, Vec3
 
 _LOITER_RADIUS_M = 1.0
@@ -100,6 +107,12 @@ class MissionRun:
         self._stay_s, self._done_s = 0.0, None
         if item.command == JUMP:
             self.mission.jump(item)
+        elif item.command in PAYLOAD:
+            now.payload.append(Command(item.command, item.params, item.x, item.y, item.z, item.frame))
+            self.mission.advance()
+        elif item.command == LAND_START or (item.command == GATE and self._onward(now, now.here[2]) is None):
+            # The one says where the landing begins to those who read the mission; the other leads nowhere.
+            self.mission.advance()
         elif item.command in (YAW, SPEED, SET_HOME, REGION_AT, REGION_NONE, REGION):
             self._set(item, now)
             self.mission.advance()
@@ -123,7 +136,13 @@ class MissionRun:
             lowest = now.above_start(LOWEST_FLIGHT_M) if now.vehicle.on_ground else now.home[2] - LOWEST_FLIGHT_M
             down = min(target[2], lowest)
             return Climb(now.below_ceiling((0.0, 0.0, down))[2])
-        target = now.below_ceiling((target[0], target[1], min(target[2], -0.2)))
+        if item.command == GATE:
+            onward = self._onward(now, now.here[2]) or now.here
+            return Gate(target, Travel(onward, now.quantity("acceptance_m"), self._nose(item, onward, now)))
+        target = _above_floor(target, now)
+        if item.command == LOITER_TO_HEIGHT:
+            radius = now.quantity("acceptance_m")
+            return ThenHeight(Travel((target[0], target[1], now.here[2]), radius), Travel(target, REACHED_M))
         if item.command == LOITER_TURNS:
             radius = item.params[2] if math.isfinite(item.params[2]) and item.params[2] else _LOITER_RADIUS_M
             return Circle(target, max(-50.0, min(50.0, radius)), min(1.0, now.cruise_mps), item.params[0])
@@ -132,9 +151,25 @@ class MissionRun:
         elif math.isfinite(item.params[0]):
             self._stay_s = item.params[0]
         radius = now.quantity("acceptance_m")
+        if item.command == SPLINE:
+            return Curve(target, radius, self._leaving(target, now), self._nose_rad)
         if item.command != LOITER_TIME and 0.0 < item.params[1] < 50.0:
             radius = max(0.05, item.params[1])
         return Travel(target, radius, self._nose(item, target, now))
+
+    def _onward(self, now: Situation, down_m: float) -> Vec3 | None:
+        """Where it will fly to after the current item, if nothing stops it before; to a landing at this height."""
+        item = self.mission.following()
+        found = None if item is None else spot(item, now)
+        if item is None or not isinstance(found, tuple):
+            return None
+        return _above_floor((found[0], found[1], down_m if item.command == LAND else found[2]), now)
+
+    def _leaving(self, target: Vec3, now: Situation) -> Vec3:
+        """The slope of a spline at its end."""
+        item = self.mission.following()
+        onward = None if self._stay_s > 0.0 else self._onward(now, target[2])
+        return leaving(now.here, target, onward, item is not None and item.command == SPLINE)
 
     def _nose(self, item: Item, target: Vec3, now: Situation) -> float | None:
         """PX4's waypoints may say a heading; else CONDITION_YAW's, else along the way."""
@@ -164,25 +199,6 @@ class MissionRun:
             now.region_ned_m = found if isinstance(found, tuple) else None
 
 
-@dataclass(slots=True)
-class Landing:
-    """Go above a place, then land there."""
-
-    way: Travel
-    landing: Descend
-
-    @property
-    def done(self) -> bool:
-        return self.landing.done
-
-    @property
-    def place_ned_m(self) -> Vec3:
-        return self.way.place_ned_m
-
-    def step(self, now: Situation, now_s: float) -> Setpoint:
-        if not self.way.done and not now.vehicle.on_ground and now.estimate.position_ok:
-            setpoint = self.way.step(now, now_s)
-            if self.way.done:
-                self.landing.place_ned_m = self.way.place_ned_m
-            return setpoint
-        return self.landing.step(now, now_s)
+def _above_floor(place: Vec3, now: Situation) -> Vec3:
+    """The place between floor and ceiling."""
+    return now.below_ceiling((place[0], place[1], min(place[2], -0.2)))

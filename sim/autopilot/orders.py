@@ -10,11 +10,24 @@ from sim.autopilot.geo import GLOBAL_FRAMES, HOME_FRAMES, place
 from sim.autopilot.guided import Guided
 from sim.autopilot.interface import Ack, Answer, Command, Severity
 from sim.autopilot.mission_run import MissionRun
-from sim.autopilot.situation import LOWEST_FLIGHT_M
+from sim.autopilot.situation import LOWEST_FLIGHT_M, Situation
 from sim.flight.state import Trajectory, Vec3
 
 ACCEPTED = Answer(Ack.ACCEPTED)
 _FASTEST_MPS = 20.0
+
+
+def named_place(now: Situation, command: Command, what: str) -> Vec3 | Answer:
+    """Local NED of the place that a command names, or why `what` is refused."""
+    found = place(_frame(command), command.x, command.y, command.z, now.origin, now.home, now.here)
+    if found is None:
+        return Answer(Ack.UNSUPPORTED_FRAME)
+    return Answer(Ack.DENIED, f"{what} refused: {found}") if isinstance(found, str) else found
+
+
+def _frame(command: Command) -> int:
+    """A COMMAND_LONG has none: its places are global, above mean sea level."""
+    return 0 if command.frame is None else command.frame
 
 
 def take_off(conduct: Conduct, command: Command, now_s: float) -> Answer:
@@ -30,13 +43,9 @@ def take_off(conduct: Conduct, command: Command, now_s: float) -> Answer:
         return _take_off_guided(conduct, command)
     down, lifted = now.above_start(now.params.get("MIS_TAKEOFF_ALT")), False
     if not math.isnan(command.z):
-        found = place(
-            0 if command.frame is None else command.frame, math.nan, math.nan, command.z, now.origin, now.home, now.here
-        )
-        if found is None:
-            return Answer(Ack.UNSUPPORTED_FRAME)
-        if isinstance(found, str):
-            return Answer(Ack.DENIED, f"Takeoff refused: {found}")
+        found = named_place(now, replace(command, x=math.nan, y=math.nan), "Takeoff")
+        if isinstance(found, Answer):
+            return found
         lifted = found[2] > down
         down = min(down, found[2])
     answer = conduct.choose("takeoff", now_s)
@@ -215,15 +224,10 @@ def _target(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:
     if not now.flying or not now.located:
         why = "it is not flying" if now.located else "it needs a position estimate"
         return Answer(now.row.refused, f"{name} refused: {why}")
-    frame = 0 if command.frame is None else command.frame
-    if frame in GLOBAL_FRAMES and now.origin is None and math.isnan(command.x) and math.isnan(command.y):
-        frame, command = 1, replace(command, z=math.nan)
-    found = place(frame, command.x, command.y, command.z, now.origin, now.home, now.here)
-    if found is None:
-        return Answer(Ack.UNSUPPORTED_FRAME)
-    if isinstance(found, str):
-        return Answer(Ack.DENIED, f"{name} refused: {found}")
-    return found[0], found[1], min(found[2], -0.2)
+    if _frame(command) in GLOBAL_FRAMES and now.origin is None and math.isnan(command.x) and math.isnan(command.y):
+        command = replace(command, frame=1, z=math.nan)
+    found = named_place(now, command, name)
+    return found if isinstance(found, Answer) else (found[0], found[1], min(found[2], -0.2))
 
 
 def _destination(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:

@@ -47,6 +47,8 @@ class Personality:
     """NAV_TAKEOFF: armed and in guided mode to a height above home, or by itself to a parameter's height or to AMSL."""
     setpoint_stream: bool
     """Offboard needs a stream of setpoints to be entered and to stay; without, targets stay until the next."""
+    unknown_items: frozenset[int]
+    """MAV_CMD of mission items that only the other firmware knows."""
     unknown_mode: Ack
     """The result when there is no such mode."""
     inclusions: Literal["all", "any"]
@@ -103,6 +105,7 @@ ARDUPILOT = Personality(
     estimator_message="EKF_STATUS_REPORT",
     takeoff="guided",
     setpoint_stream=False,
+    unknown_items=frozenset({4501}),  # CONDITION_GATE
     unknown_mode=Ack.FAILED,
     inclusions="all",
     quantities={
@@ -143,6 +146,7 @@ PX4 = Personality(
     estimator_message="ESTIMATOR_STATUS",
     takeoff="auto",
     setpoint_stream=True,
+    unknown_items=frozenset({82}),  # NAV_SPLINE_WAYPOINT
     unknown_mode=Ack.DENIED,
     inclusions="any",
     quantities={

@@ -2,7 +2,8 @@
 
 from sim.autopilot.flying import Activity, Climb, Descend, GoHome
 from sim.autopilot.guided import Guided
-from sim.autopilot.mission_run import Landing, MissionRun
+from sim.autopilot.legs import Landing
+from sim.autopilot.mission_run import MissionRun
 
 
 def _inner(activity: Activity | None) -> Activity | None:

@@ -69,7 +69,7 @@ class Plans:
     def _warn_of_ceiling(self) -> None:
         now = self._now
         for item in self.mission.items[self.mission.first :]:
-            if item.command in mission.AT_A_PLACE and item.command != mission.REGION_AT:
+            if item.command in mission.FLOWN_TO:
                 found = mission.spot(item, now)
                 if isinstance(found, tuple) and found[2] < now.top_down_m:
                     now.say(Severity.WARNING, f"Mission: item {item.seq} is flown lower, below the ceiling")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from sim.autopilot.geo import Origin
-from sim.autopilot.interface import Severity
+from sim.autopilot.interface import Command, Severity
 from sim.autopilot.params import Params
 from sim.autopilot.personality import Mode, Personality, Quantity
 from sim.flight.state import Estimate, Vec3, Vehicle
@@ -41,6 +41,8 @@ class Situation:
     """Asked for by DO_CHANGE_SPEED; None: the parameter's."""
     region_ned_m: Vec3 | None = None
     """The region of interest: the nose points there."""
+    payload: list[Command] = field(default_factory=list)
+    """What the mission wants of camera and gimbal, not handed on yet."""
     said: list[tuple[Severity, str]] = field(default_factory=list)
 
     def say(self, severity: Severity, text: str) -> None:

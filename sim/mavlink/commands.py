@@ -12,14 +12,11 @@ from sim.mavlink import streams
 from sim.mavlink.craft import AUTOPILOT, Craft, Sender
 from sim.mavlink.items import scale
 from sim.mavlink.pack import i32
+from sim.mavlink.payload import Payload
 from sim.mavlink.peer import Message, Peer
 from sim.mavlink.streams import Rates
 
 UNUSED_INT = 0x7FFF_FFFF
-POSITIONED = frozenset(
-    {16, 17, 18, 19, 21, 22, 31, 34, 80, 82, 84, 85, 179, 192, 195, 201, 3000, 5000, 5001, 5002, 5003, 5100}
-)
-"""MAV_CMD whose params 5 and 6 are a place, scaled in a COMMAND_INT; of others they are plain numbers."""
 MOST_REMEMBERED = 32
 REPORT_S = 0.5
 """From one report of a command in progress to the next."""
@@ -44,7 +41,7 @@ def read(message: Message) -> Command:
     params = (message.param1, message.param2, message.param3, message.param4)
     if message.get_msgId() == mav.MAVLINK_MSG_ID_COMMAND_LONG:
         return Command(message.command, params, message.param5, message.param6, message.param7, None)
-    divide = scale(message.frame) if message.command in POSITIONED else 1.0
+    divide = scale(message.command, message.frame)
     x, y = (math.nan if value == UNUSED_INT else value / divide for value in (message.x, message.y))
     return Command(message.command, params, x, y, message.z, message.frame)
 
@@ -57,10 +54,11 @@ def number(value: float) -> int | None:
 class Commands:
     """One vehicle's commands; `rates` finds a peer's streams."""
 
-    def __init__(self, craft: Craft, rates: Callable[[Peer], Rates], components: list[Component]) -> None:
+    def __init__(self, craft: Craft, rates: Callable[[Peer], Rates], payload: Payload) -> None:
         self._craft = craft
         self._rates = rates
-        self._components = components
+        self._payload = payload
+        self._components: list[Component] = [payload.camera, payload.gimbal] if craft.camera else []
         self._running: dict[int, Sender] = {}
         self._reported_s = -math.inf
         self._own: dict[int, Callable[[Command, Sender, float], Answer]] = {
@@ -81,7 +79,7 @@ class Commands:
         own = self._own.get(command.id)
         if own is None and message.target_component == 0 and self._camera_takes(command, sender, now_s):
             return
-        answer = own(command, sender, now_s) if own else self._craft.autopilot.command(command, now_s)
+        answer = own(command, sender, now_s) if own else self._others(command, sender, now_s)
         self._ack(command.id, answer.result, sender)
         if answer.result == Ack.IN_PROGRESS:
             if len(self._running) >= MOST_REMEMBERED:
@@ -91,6 +89,11 @@ class Commands:
             self._craft.complain(answer.text, now_s)
         if answer.result == Ack.ACCEPTED:
             self._follow_up(command, sender, now_s)
+
+    def _others(self, command: Command, sender: Sender, now_s: float) -> Answer:
+        """The older commands of camera and gimbal; what is left is the autopilot's."""
+        older = self._payload.older(command, sender, now_s)
+        return self._craft.autopilot.command(command, now_s) if older is None else Answer(older)
 
     def _follow_up(self, command: Command, sender: Sender, now_s: float) -> None:
         """What was asked for goes out after the acknowledgement."""

@@ -38,7 +38,8 @@ class Craft:
     """Wall time at now_s = 0."""
     capture: Callable[[], bool] = lambda: True
     camera: bool = True
-    """Whether a camera and a gimbal show themselves as components; dronekit takes any heartbeat for the autopilot's."""
+    """Whether a camera and a gimbal show themselves as components; dronekit takes any heartbeat for the autopilot's.
+    Missions use them all the same."""
     home_asked: bool = False
     last_reached: int | None = None
     """The mission item reached last."""

@@ -21,6 +21,16 @@ CAPABILITIES = 0x2 | 0x8 | 0x20 | 0x40 | 0x100 | 0x200
 SELF, NOBODY, UNCHANGED = -2.0, -3.0, -1.0
 """How CONFIGURE names who is to be in control."""
 
+RETRACTED, NEUTRAL, ANGLES = 0.0, 1.0, 2.0
+"""MAV_MOUNT_MODE; it has no place to retract to and looks ahead then."""
+LEVEL_DEG = 0.1
+
+
+def _reaches(angle_rad: float, range_rad: tuple[float, float]) -> bool:
+    """NaN is for where it is."""
+    slack = 1e-3
+    return math.isnan(angle_rad) or range_rad[0] - slack <= angle_rad <= range_rad[1] + slack
+
 
 class Gimbal:
     """Component 154; turns at a bounded rate towards what it was told last."""
@@ -43,6 +53,8 @@ class Gimbal:
         self._last_s = now_s
         self.pitch_rad += min(max(self._to[0] - self.pitch_rad, -most), most)
         self.yaw_rad += min(max(self._to[1] - self.yaw_rad, -most), most)
+        if not self._craft.camera:
+            return
         if now_s - self._beat_s >= 1.0:
             self._beat_s = now_s
             beat = mav.MAVLink_heartbeat_message(mav.MAV_TYPE_GIMBAL, mav.MAV_AUTOPILOT_INVALID, 0, 0, 4, 3)
@@ -71,33 +83,71 @@ class Gimbal:
 
     def turn(self, pitch_rad: float, yaw_rad: float) -> bool:
         """Turn to these angles in the body's axes, NaN for as it is; False for what is out of reach."""
-        pitch = self._to[0] if math.isnan(pitch_rad) else pitch_rad
-        yaw = self._to[1] if math.isnan(yaw_rad) else yaw_rad
-        slack = 1e-3
-        for angle, (least, most) in ((pitch, PITCH_RANGE_RAD), (yaw, YAW_RANGE_RAD)):
-            if not least - slack <= angle <= most + slack:
-                return False
-        self._to = (pitch, yaw)
+        if not (_reaches(pitch_rad, PITCH_RANGE_RAD) and _reaches(yaw_rad, YAW_RANGE_RAD)):
+            return False
+        pitch, yaw = self._to
+        self._to = (pitch if math.isnan(pitch_rad) else pitch_rad, yaw if math.isnan(yaw_rad) else yaw_rad)
         return True
 
-    def command(self, command: Command, sender: Sender, now_s: float) -> Ack | None:
-        if command.id == mav.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW:
-            pitch_deg, yaw_deg = command.params[:2]
-            return Ack.ACCEPTED if self.turn(math.radians(pitch_deg), math.radians(yaw_deg)) else Ack.DENIED
-        if command.id == mav.MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE:
-            return self._configure(command.params[0], command.params[1], sender)
+    def wrong(self, command: Command) -> int | None:
+        """Which param (1 to 7) makes no sense, 0 when all do; None for what it does not know."""
+        first, second, third, _ = command.params
+        match command.id:
+            case mav.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW:
+                if not _reaches(math.radians(first), PITCH_RANGE_RAD):
+                    return 1
+                return 0 if _reaches(math.radians(second), YAW_RANGE_RAD) else 2
+            case mav.MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE:
+                if first in (SELF, NOBODY, UNCHANGED):
+                    return 0
+                return (0 if 0 <= second <= 255 else 2) if 0 <= first <= 255 else 1
+            case mav.MAV_CMD_DO_MOUNT_CONFIGURE:
+                return 0 if first in (RETRACTED, NEUTRAL, ANGLES) else 1
+            case mav.MAV_CMD_DO_MOUNT_CONTROL:
+                if not self._by_angles(command):
+                    return 0 if command.z in (RETRACTED, NEUTRAL) else 7
+                if not _reaches(math.radians(first), PITCH_RANGE_RAD):
+                    return 1
+                if abs(second) > LEVEL_DEG:  # it keeps level by itself and cannot be leant
+                    return 2
+                return 3 if math.isinf(third) else 0
         return None
 
-    def _configure(self, sysid: float, compid: float, sender: Sender) -> Ack:
+    def _by_angles(self, command: Command) -> bool:
+        """Whether DO_MOUNT_CONTROL gives angles: ArduCopter takes it so whatever the mode that it says."""
+        return command.z == ANGLES or self._craft.personality.name == "ardupilot"
+
+    def order(self, command: Command, who: tuple[int, int], now_s: float) -> Ack | None:
+        """Turn, by the manager's command or the older ones of mounts, and say who is in control; `who` orders it."""
+        wrong = self.wrong(command)
+        if wrong is None:
+            return None
+        if wrong:
+            return Ack.DENIED
+        first, second, third, _ = command.params
+        match command.id:
+            case mav.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW:
+                self.turn(math.radians(first), math.radians(second))
+            case mav.MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE:
+                self._configure(first, second, who)
+            case mav.MAV_CMD_DO_MOUNT_CONTROL if self._by_angles(command):
+                self.turn(math.radians(first), math.remainder(math.radians(third), math.tau))
+            case mav.MAV_CMD_DO_MOUNT_CONTROL:
+                self.turn(0.0, 0.0)
+            case mav.MAV_CMD_DO_MOUNT_CONFIGURE if first != ANGLES:
+                self.turn(0.0, 0.0)
+        return Ack.ACCEPTED
+
+    def command(self, command: Command, sender: Sender, now_s: float) -> Ack | None:
+        return self.order(command, (sender.sysid, sender.compid), now_s)
+
+    def _configure(self, sysid: float, compid: float, who: tuple[int, int]) -> None:
         if sysid == SELF:
-            self._control = (sender.sysid, sender.compid)
+            self._control = who
         elif sysid == NOBODY:
             self._control = (0, 0)
         elif sysid != UNCHANGED:
-            if not (0 <= sysid <= 255 and 0 <= compid <= 255):
-                return Ack.DENIED
             self._control = (int(sysid), int(compid))
-        return Ack.ACCEPTED
 
     def set_attitude(self, message: Message, sender: Sender, now_s: float) -> None:
         """GIMBAL_MANAGER_SET_ATTITUDE: a quaternion in the body's axes."""

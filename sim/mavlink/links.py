@@ -2,6 +2,7 @@
 
 import errno
 import ipaddress
+import logging
 import socket
 from collections.abc import Iterator
 from itertools import count
@@ -9,11 +10,14 @@ from typing import Protocol
 
 from sim.mavlink.peer import Message, Peer, Signing
 
+log = logging.getLogger(__name__)
 MAX_DATAGRAMS = 512
 """Taken from one socket per poll, so that a flood cannot keep the vehicle from being stepped."""
 MAX_PEERS = 16
 FORGET_S = 15.0
 """A client of the UDP server that says nothing for so long gets no more telemetry."""
+SILENT_S = 3.0
+"""A TCP client that says nothing for so long, where all send heartbeats each second, makes room for a new one."""
 SLOW_BYTES = 64 * 1024
 GONE_BYTES = 1024 * 1024
 _ids = count(1)
@@ -148,7 +152,10 @@ class UdpIn:
 
 
 class TcpServer:
-    """Takes clients as they come; one that stops reading loses telemetry first and then its connection."""
+    """Takes clients as they come; one that stops reading loses telemetry first and then its connection.
+
+    Who only listens may stay, until all places are taken and somebody new comes: then the longest silent goes.
+    """
 
     def __init__(self, port: int, bind: str = "127.0.0.1", signing: Signing | None = None) -> None:
         """Raises LinkError when the port is taken."""
@@ -163,25 +170,34 @@ class TcpServer:
     def peers(self) -> list[Peer]:
         return [client.peer for client in self._clients]
 
-    def _accept(self) -> None:
+    def _make_room(self, now_s: float) -> None:
+        """Let the longest silent client go, if it is silent enough."""
+        client = min(self._clients, key=lambda each: each.heard_s)
+        if now_s - client.heard_s >= SILENT_S:
+            log.info("%s makes room: silent for %.0f s", client.peer.name, now_s - client.heard_s)
+            client.socket.close()
+            self._clients.remove(client)
+
+    def _accept(self, now_s: float) -> None:
         for _ in range(MAX_PEERS):
             try:
                 made, address = self._socket.accept()
             except (BlockingIOError, ConnectionError):
                 return
             if len(self._clients) >= MAX_PEERS:
+                self._make_room(now_s)
+            if len(self._clients) >= MAX_PEERS:
                 made.close()
                 continue
             made.setblocking(False)
             made.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, GONE_BYTES // 8)
-            self._clients.append(_Client(made, f"tcp from {address[0]}:{address[1]}", self._signing))
+            self._clients.append(_Client(made, f"tcp from {address[0]}:{address[1]}", self._signing, now_s))
 
     def poll(self, now_s: float) -> Iterator[Heard]:
-        del now_s
-        self._accept()
+        self._accept(now_s)
         for client in self._clients:
-            yield from client.poll()
+            yield from client.poll(now_s)
         for client in [each for each in self._clients if each.gone]:
             client.socket.close()
             self._clients.remove(client)
@@ -193,8 +209,10 @@ class TcpServer:
 
 
 class _Client:
-    def __init__(self, made: socket.socket, name: str, signing: Signing | None) -> None:
+    def __init__(self, made: socket.socket, name: str, signing: Signing | None, now_s: float) -> None:
         self.socket = made
+        self.heard_s = now_s
+        """When it said a whole message last, or came."""
         self.gone = False
         self._waiting = bytearray()
         self.peer = Peer(name, self._write, next(_ids) & 0xFF, signing)
@@ -216,7 +234,7 @@ class _Client:
         except OSError:
             self.gone = True
 
-    def poll(self) -> Iterator[Heard]:
+    def poll(self, now_s: float) -> Iterator[Heard]:
         self._flush()
         for _ in range(MAX_DATAGRAMS // 8):
             if self.gone:
@@ -229,6 +247,7 @@ class _Client:
                 data = b""
             self.gone |= not data
             for message in self.peer.stream(data) if data else ():
+                self.heard_s = now_s
                 yield self.peer, message
 
 

@@ -18,8 +18,21 @@ from sim.autopilot.interface import Ack, Command, Item, Plan, Severity
 from sim.mavlink import items, status
 from sim.mavlink.craft import Craft, Sender
 from sim.mavlink.pack import finite, u16
+from sim.mavlink.payload import Payload
 from sim.mavlink.peer import Message
 
+WHY = {
+    mav.MAV_MISSION_UNSUPPORTED_FRAME: "its frame is of no use for it",
+    mav.MAV_MISSION_UNSUPPORTED: "this vehicle cannot do that",
+    mav.MAV_MISSION_INVALID: "its numbers make no sense",
+    **{mav.MAV_MISSION_INVALID_PARAM1 + k: f"its param {k + 1} makes no sense" for k in range(4)},
+    mav.MAV_MISSION_INVALID_PARAM5_X: "its latitude or x is nowhere it can be",
+    mav.MAV_MISSION_INVALID_PARAM6_Y: "its longitude or y is nowhere it can be",
+    mav.MAV_MISSION_INVALID_PARAM7: "its altitude or z makes no sense",
+}
+"""By MAV_MISSION_RESULT."""
+VIDEOS = (mav.MAV_CMD_VIDEO_START_CAPTURE, mav.MAV_CMD_VIDEO_STOP_CAPTURE)
+VIDEO = "the camera takes pictures only, no video"
 AGAIN_S = 0.7
 TRIES = 5
 MOST_ITEMS = {0: 700, 1: 250, 2: 50}
@@ -44,8 +57,9 @@ class Upload:
 class Missions:
     """One vehicle's plans on the wire."""
 
-    def __init__(self, craft: Craft) -> None:
+    def __init__(self, craft: Craft, payload: Payload) -> None:
         self._craft = craft
+        self._payload = payload
         self._upload: Upload | None = None
 
     def _ack(self, to: Sender, result: int, kind: int) -> None:
@@ -116,7 +130,8 @@ class Missions:
         if result:
             self._upload = None
             self._ack(sender, result, kind)
-            self._craft.complain(f"{NAMES[kind]} item {item.seq}, command {item.command}: refused", now_s)
+            why = VIDEO if item.command in VIDEOS else WHY.get(result, "refused")
+            self._craft.complain(f"{NAMES[kind]} item {item.seq}, command {item.command}: {why}", now_s)
             return
         upload.items.append(item)
         upload.tries = 0
@@ -129,7 +144,8 @@ class Missions:
     def _check(self, kind: Plan, item: Item) -> int:
         if any(abs(value) == float("inf") for value in (*item.params, item.x, item.y, item.z)):
             return int(mav.MAV_MISSION_INVALID)
-        return self._craft.autopilot.check_item(kind, item)
+        result = self._craft.autopilot.check_item(kind, item)
+        return result if result or kind != 0 else self._payload.check(item)
 
     def _go(self, message: Message, sender: Sender, now_s: float) -> None:
         item = items.read(message)

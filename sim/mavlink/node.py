@@ -7,12 +7,12 @@ from pymavlink.dialects.v20 import ardupilotmega as mav
 from sim.autopilot.interface import Ack, Telemetry
 from sim.flight.state import Vec3
 from sim.mavlink import streams, upkeep
-from sim.mavlink.camera import Camera
 from sim.mavlink.commands import Commands
 from sim.mavlink.craft import AUTOPILOT, Craft, Sender
-from sim.mavlink.gimbal import Gimbal
+from sim.mavlink.gimbal import GIMBAL
 from sim.mavlink.missions import Missions
 from sim.mavlink.params import Params
+from sim.mavlink.payload import Payload
 from sim.mavlink.peer import Message, Peer
 from sim.mavlink.setpoints import Setpoints
 from sim.mavlink.streams import Rates
@@ -29,13 +29,13 @@ class Node:
         self.craft = craft
         self._rates: dict[Peer, Rates] = {}
         self._home: Vec3 | None = None
-        self._camera, self._gimbal = Camera(craft), Gimbal(craft)
-        self._params, self._missions = Params(craft), Missions(craft)
-        self._commands = Commands(craft, self.rates, [self._camera, self._gimbal] if craft.camera else [])
+        self._payload = Payload(craft)
+        self._params, self._missions = Params(craft), Missions(craft, self._payload)
+        self._commands = Commands(craft, self.rates, self._payload)
         self._handlers = self._table(Setpoints(craft))
 
     def _table(self, setpoints: Setpoints) -> dict[int, Handler]:
-        missions, params, gimbal = self._missions, self._params, self._gimbal
+        missions, params, gimbal = self._missions, self._params, self._payload.gimbal
         return {
             mav.MAVLINK_MSG_ID_HEARTBEAT: self._heartbeat,
             mav.MAVLINK_MSG_ID_COMMAND_LONG: self._commands.handle,
@@ -88,7 +88,7 @@ class Node:
         """Whether it names this vehicle, or all, or nobody; components other than the autopilot take only commands."""
         target = getattr(message, "target_system", getattr(message, "target", 0))
         part = getattr(message, "target_component", 0)
-        own = (0, AUTOPILOT, self._gimbal.compid)
+        own = (0, AUTOPILOT, GIMBAL)
         return target in (0, self.craft.sysid) and (part in own or message.get_msgId() in COMMANDS)
 
     def handle(self, message: Message, sender: Sender, now_s: float) -> None:
@@ -127,9 +127,7 @@ class Node:
         self._commands.step(now_s)
         self._params.step(now_s)
         self._missions.step(now_s)
-        if self.craft.camera:
-            self._camera.step(now_s)
-            self._gimbal.step(now_s)
+        self._payload.step(now_s)
         self._stream(now_s)
 
     def _stream(self, now_s: float) -> None:

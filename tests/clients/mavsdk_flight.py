@@ -1,12 +1,15 @@
 """A whole flight by MAVSDK's asyncio API: `python mavsdk_flight.py URL`. Prints OK at the end."""
 
 import asyncio
+import json
+import math
 import sys
 from collections.abc import AsyncIterator, Callable
 from typing import Any
 
 from mavsdk.asyncio import ComponentType, Configuration, Mavsdk
 from mavsdk.asyncio.plugins.action import ActionAsync
+from mavsdk.asyncio.plugins.mavlink_direct import MavlinkDirectAsync
 from mavsdk.asyncio.plugins.mission import MissionAsync, MissionItem, MissionPlan
 from mavsdk.asyncio.plugins.offboard import OffboardAsync, PositionNedYaw, VelocityNedYaw
 from mavsdk.asyncio.plugins.param import ParamAsync
@@ -74,31 +77,33 @@ async def fly(url: str) -> None:
         await until(telemetry.subscribe_position_velocity_ned(), lambda p: p.velocity.north_m_s > 0.9, 5, "1 m/s")
         await offboard.stop()
         await fly_mission(mission, home, (await drone.autopilot_type()) == ARDUPILOT)
+        await photograph(mission, MavlinkDirectAsync(drone), home)
         await action.land()
         await until(telemetry.subscribe_armed(), lambda armed: not armed, 30, "landed and disarmed")
         print("OK")
 
 
-async def fly_mission(mission: MissionAsync, home: Any, ardupilot: bool) -> None:
-    def item(north: float, east: float) -> MissionItem:
-        return MissionItem(
-            home.latitude_deg + north,
-            home.longitude_deg + east,
-            2.0,
-            1.5,
-            True,
-            NAN,
-            NAN,
-            MissionItem.CameraAction.NONE,
-            NAN,
-            NAN,
-            0.3,
-            NAN,
-            NAN,
-            MissionItem.VehicleAction.NONE,
-        )
+def item(home: Any, north_deg: float, east_deg: float, pitch_deg: float = NAN, camera: str = "NONE") -> MissionItem:
+    return MissionItem(
+        home.latitude_deg + north_deg,
+        home.longitude_deg + east_deg,
+        2.0,
+        1.5,
+        True,
+        pitch_deg,
+        0.0 if math.isfinite(pitch_deg) else NAN,
+        MissionItem.CameraAction[camera],
+        NAN,
+        0.5,
+        0.3,
+        NAN,
+        0.5,
+        MissionItem.VehicleAction.NONE,
+    )
 
-    items = [item(0.0, 0.0), item(1e-5, 0.0), item(1e-5, 1e-5), item(0.0, 0.0)]
+
+async def fly_mission(mission: MissionAsync, home: Any, ardupilot: bool) -> None:
+    items = [item(home, 0.0, 0.0), item(home, 1e-5, 0.0), item(home, 1e-5, 1e-5), item(home, 0.0, 0.0)]
     await mission.upload_mission(MissionPlan(items))
     if not ardupilot:  # there item 0 is home, of a kind that MAVSDK's mission does not know
         back = await mission.download_mission()
@@ -106,6 +111,46 @@ async def fly_mission(mission: MissionAsync, home: Any, ardupilot: bool) -> None
     await mission.start_mission()
     await until(mission.subscribe_mission_progress(), lambda p: p.current == p.total > 0, 60, "mission flown")
     print("mission flown")
+
+
+async def photograph(mission: MissionAsync, wire: MavlinkDirectAsync, home: Any) -> None:
+    """A picture of the floor ahead, pictures every half metre of way, and some by time, all ordered by the mission."""
+    pictures: list[dict[str, Any]] = []
+
+    async def gather() -> None:
+        async for each in wire.subscribe_message("CAMERA_IMAGE_CAPTURED"):
+            pictures.append(json.loads(each.fields_json))
+
+    listening = asyncio.ensure_future(gather())
+    down = asyncio.ensure_future(
+        until(wire.subscribe_message("GIMBAL_DEVICE_ATTITUDE_STATUS"), looks(-45.0), 60, "the gimbal turned down")
+    )
+    items = [
+        item(home, 0.0, 0.0, -45.0, "TAKE_PHOTO"),
+        item(home, 1e-5, 0.0, camera="START_PHOTO_DISTANCE"),
+        item(home, 3e-5, 0.0, camera="STOP_PHOTO_DISTANCE"),
+        item(home, 3e-5, 1e-5, camera="START_PHOTO_INTERVAL"),
+        item(home, 3e-5, 4e-5, camera="STOP_PHOTO_INTERVAL"),
+    ]
+    await mission.upload_mission(MissionPlan(items))
+    await mission.start_mission()
+    await until(mission.subscribe_mission_progress(), lambda p: p.current == p.total > 0, 60, "pictures taken")
+    await down
+    listening.cancel()
+    norths = [(each["lat"] / 1e7 - home.latitude_deg) * 1e5 for each in pictures]
+    print("pictures at", [round(north, 2) for north in norths])
+    assert abs(norths[0]) < 0.5, "the first picture is not where it was to be taken"
+    assert any(1.2 < north < 2.8 for north in norths), "no pictures by distance"
+    assert sum(north > 2.8 for north in norths) >= 2, "no pictures by time"
+    assert [each["image_index"] for each in pictures] == list(range(1, len(pictures) + 1))
+
+
+def looks(pitch_deg: float) -> Callable[[Any], bool]:
+    def such(message: Any) -> bool:
+        w, x, y, z = json.loads(message.fields_json)["q"]
+        return abs(math.degrees(math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))) - pitch_deg) < 2.0
+
+    return such
 
 
 if __name__ == "__main__":

@@ -4,10 +4,11 @@ import signal
 import socket
 import subprocess
 import sys
+from math import radians, remainder, tau
 
 import pytest
 
-from sim.sitl import Sitl, main
+from sim.sitl import Flight, Sitl, main
 from sim.sitl_options import parse
 
 
@@ -75,6 +76,17 @@ def test_in_a_home() -> None:
         sitl.flight.step()
     assert all(firmware.vehicle.on_ground for firmware in sitl.flight.firmwares)
     sitl.close()
+
+
+def test_in_a_home_it_faces_as_asked() -> None:
+    scene, links = ["--scene", "home:7"], ["--tcp", "0"]
+    own, turned = (Flight(parse([*scene, *links, *home])) for home in ([], ["--home", "47.397742,8.545594,488,135"]))
+    headings = [radians(90) - flight.vehicles[0].true_pose()[1] for flight in (own, turned)]
+    assert remainder(headings[1] - radians(135), tau) == pytest.approx(0.0, abs=1e-3)
+    assert own.vehicles[0].true_pose()[0] == pytest.approx(turned.vehicles[0].true_pose()[0], abs=1e-3)
+    assert abs(remainder(headings[0] - headings[1], tau)) > 0.1
+    for flight in (own, turned):
+        flight.close()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -136,3 +136,21 @@ def put(rig: Rig, **values: float) -> None:
     """Set parameters."""
     for name, value in values.items():
         assert not isinstance(rig.firmware.set_param(name, value), str), name
+
+
+def upload(rig, items) -> int:
+    """With a home before it where the firmware has that."""
+    first = rig.firmware.now.row.home_is_item_0
+    shifted = [
+        item(k, i.command, i.x, i.y, i.z, i.params, i.frame)
+        for k, i in enumerate(([item(0, 16)] if first else []) + items)
+    ]
+    return rig.firmware.accept_plan(0, shifted)
+
+
+def start(rig) -> None:
+    if rig.firmware.now.row.name == "ardupilot":
+        rig.mode("offboard")
+    assert rig.do(400, 1).result is Ack.ACCEPTED
+    assert rig.do(300).result is Ack.ACCEPTED, rig.said
+    assert rig.in_mode("mission")

@@ -3,26 +3,7 @@
 import math
 
 from sim.autopilot.interface import Ack
-from tests.sim.autopilot.rig import NAN, ZURICH, item
-
-HOME = item(0, 16)
-
-
-def upload(rig, items) -> int:
-    """With a home before it where the firmware has that."""
-    first = rig.firmware.now.row.home_is_item_0
-    shifted = [
-        item(k, i.command, i.x, i.y, i.z, i.params, i.frame) for k, i in enumerate(([HOME] if first else []) + items)
-    ]
-    return rig.firmware.accept_plan(0, shifted)
-
-
-def start(rig) -> None:
-    if rig.firmware.now.row.name == "ardupilot":
-        rig.mode("offboard")
-    assert rig.do(400, 1).result is Ack.ACCEPTED
-    assert rig.do(300).result is Ack.ACCEPTED, rig.said
-    assert rig.in_mode("mission")
+from tests.sim.autopilot.rig import NAN, ZURICH, ardupilot, item, start, upload
 
 
 def test_flies_a_mission_to_its_landing(rig):
@@ -143,8 +124,13 @@ def test_items_are_checked(rig):
     check = rig.firmware.check_item
     for expected, bad in (
         (0, item(3, 16, 1.0, 1.0, -1.0)),
-        (3, item(3, 82, 1.0, 1.0, -1.0)),
-        (3, item(3, 2000)),
+        (0 if ardupilot(rig) else 3, item(3, 82, 1.0, 1.0, -1.0)),
+        (3 if ardupilot(rig) else 0, item(3, 4501, 1.0, 1.0, -1.0)),
+        (0, item(3, 2000)),
+        (0, item(3, 189)),
+        (3, item(3, 183)),
+        (3, item(3, 2500)),
+        (12, item(3, 31, 1.0, 1.0, math.inf)),
         (2, item(3, 16, 1.0, 1.0, 1.0, frame=4)),
         (10, item(3, 16, NAN, 1.0, -1.0)),
         (11, item(3, 16, 1.0, math.inf, -1.0)),
@@ -165,6 +151,8 @@ def test_items_are_checked(rig):
     assert check(1, item(0, 5003, 1.0, 1.0, params=(1, 0, 0, 0), frame=2)) == 2
     assert check(2, item(0, 5100, *ZURICH[:2], 1.0, frame=3)) == 0
     assert check(2, item(0, 16)) == 3
+    assert check(2, item(0, 5100, 0.0, 0.0, 1.0, frame=3)) == 10
+    assert check(2, item(0, 5100, 0.0, 0.0, -1.0)) == 0, "the site's own origin is a place"
 
 
 def test_a_bad_upload_leaves_the_old_plan(rig):

@@ -92,7 +92,7 @@ class Client:
         while True:
             try:
                 data = self.socket.recv(65536)
-            except BlockingIOError:
+            except (BlockingIOError, ConnectionResetError):
                 return
             if not data:
                 return

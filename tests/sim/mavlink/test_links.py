@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
-from sim.mavlink.links import GONE_BYTES, LinkError, TcpServer, UdpIn, UdpOut
+from sim.mavlink.links import GONE_BYTES, MAX_PEERS, SILENT_S, LinkError, TcpServer, UdpIn, UdpOut
 from tests.sim.mavlink.bed import Bed
 
 KEY, OTHER_KEY = bytes(range(32)), bytes(32)
@@ -85,6 +85,34 @@ def test_client_that_does_not_read_is_let_go(bed):
             peer.send(text, 1, 1)
         bed.advance(0.1)
         assert bed.tcp.peers() == []
+
+
+def test_silent_clients_make_room_for_who_comes_later(bed):
+    """The longest silent first; who speaks stays, and so does who has just come."""
+    speaker = bed.client()
+    bed.advance(0.1)
+    silent = [bed.client() for _ in range(MAX_PEERS - 1)]
+    for client in silent:
+        client.beats = False
+    bed.advance(0.5)
+    assert len(bed.tcp.peers()) == MAX_PEERS
+    early = bed.client("tcp", 250)
+    early.beats = False
+    bed.advance(0.2)
+    assert not early.heard, "nobody has been silent for long"
+    bed.clients.remove(early)
+    silent[1].mav.heartbeat_send(mav.MAV_TYPE_GCS, mav.MAV_AUTOPILOT_INVALID, 0, 0, 4)
+    bed.advance(SILENT_S + 0.1)
+    late = bed.client("tcp", 251)
+    late.wait("HEARTBEAT", 2.0)
+    assert late.command(mav.MAV_CMD_REQUEST_MESSAGE, 148) == 0
+    assert len(bed.tcp.peers()) == MAX_PEERS
+    assert speaker.command(mav.MAV_CMD_REQUEST_MESSAGE, 148) == 0
+    for gone, client in enumerate(silent):
+        client.forget()
+        bed.advance(0.3)
+        assert bool(client.heard) is (gone != 0)
+    early.socket.close()
 
 
 def test_udp_client_that_is_silent_is_forgotten(bed):

@@ -178,6 +178,27 @@ def test_fence_and_rally_are_kept_apart_and_cleared(bed):
     assert upload(client, []) == 0
 
 
+def test_a_rally_point_at_zero_is_nowhere(bed):
+    client = bed.client()
+    bed.advance(2.0)
+    assert upload(client, [(0.0, 0.0, 1.0)], kind=2, command=5100) == mav.MAV_MISSION_INVALID_PARAM5_X
+    bed.advance(0.2)
+    assert any("Rally points item 0" in text for text in client.texts()), client.texts()
+    assert download(client, 2) == []
+
+
+def test_a_fence_that_holds_nothing_is_refused(bed):
+    client = bed.client()
+    bed.advance(2.0)
+    line = [(HOME[0] + 1e-5 * k, HOME[1] + 2e-5 * k, 0.0) for k in range(3)]
+    for corners in (line, [(*HOME, 0.0)] * 3):
+        assert upload(client, corners, kind=1, command=5001, frame=5, p1=3.0) == mav.MAV_MISSION_INVALID
+        bed.advance(0.2)
+        assert "on one line" in "".join(client.texts()), client.texts()
+    assert upload(client, [(*HOME, 0.0)], kind=1, command=5003, frame=5, p1=1e-6) == mav.MAV_MISSION_INVALID_PARAM1
+    assert download(client, 1) == []
+
+
 def test_set_current(bed):
     client = bed.client()
     bed.advance(2.0)

@@ -73,6 +73,8 @@ class Robot(Message):
     """A drone's autopilot: `udpin://`, `udpout://` or `tcpout://` with HOST:PORT, `serial://` with DEVICE:BAUD."""
     land_after_s: float = Field(default=10.0, ge=0.0)
     """A drone that hovers for want of the hub lands after this."""
+    idle_home_s: float = Field(default=30.0, ge=0.0)
+    """A drone that has hovered without a goal for this long flies home and lands; 0: it hovers on."""
     flight_height_m: float = Field(default=1.5, ge=0.5, le=50.0)
     """Where a drone flies when nobody says how high."""
     origin_enu_m: Vec3 = (0.0, 0.0, 0.0)

@@ -98,6 +98,10 @@ def take_off(craft: Craft, command: Command) -> Skilled:
 
 def land(craft: Craft, command: Command) -> Skilled:
     """Land where it is and stop the rotors."""
+    return (yield from land_here(craft))
+
+
+def land_here(craft: Craft) -> Skilled:
     if not craft.airborne:
         return Outcome("done", "already", "on the ground already")
     trouble = yield from come_down(craft)
@@ -160,6 +164,10 @@ def hold(craft: Craft, command: Command) -> Skilled:
 
 def return_home(craft: Craft, command: Command) -> Skilled:
     """Fly back to where it took off, through the doors, and land there."""
+    return (yield from go_home(craft))
+
+
+def go_home(craft: Craft) -> Skilled:
     if not craft.airborne:
         return Outcome("done", "already", "on the ground already")
     if craft.home_m is None:

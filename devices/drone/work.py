@@ -5,7 +5,7 @@ from math import dist
 from devices.drone.course import CRUISE_MPS
 from devices.drone.craft import Craft
 from devices.drone.flight import Trouble, fly_to
-from devices.drone.moves import Skilled
+from devices.drone.moves import Skilled, go_home, land_here
 from devices.drone.places import room_of
 from devices.drone.route import nearest_open
 from devices.drone.skills import SKILLS
@@ -33,6 +33,8 @@ class DroneWorker:
         self._gave_up = ""
         self._aside: Trouble | None = None
         self._aside_m: Vec2 | None = None
+        self._idle_s: float | None = None
+        self._homeward: Skilled | None = None
 
     def card(self, boot_id: str) -> DeviceCard:
         return DeviceCard(
@@ -58,6 +60,7 @@ class DroneWorker:
         craft = self._craft
         craft.begin(command.action)
         self._gave_up = ""
+        self._stay()
         self._skill = SKILLS[command.action].run(craft, command)
 
     def work(self, now_s: float) -> Outcome | None:
@@ -86,12 +89,13 @@ class DroneWorker:
         if self._gave_up or (battery is not None and battery < LOW_BATTERY):
             craft.land()
             self._gave_up = self._gave_up if craft.airborne else ""
-        elif not self._step_aside():
+        elif not self._step_aside() and not self._go_home():
             craft.hover()
 
     def halt(self) -> None:
         """Hover while the hub is away, and after a time land; once it has begun to, it does not stop half-way."""
         craft = self._craft
+        self._stay()
         self._away_s = craft.now_s if self._away_s is None else self._away_s
         waited_s = craft.now_s - self._away_s
         if not craft.airborne or craft.lost or craft.flown_by_others:
@@ -136,6 +140,26 @@ class DroneWorker:
     @property
     def progress(self) -> tuple[float, str]:
         return (self._craft.fraction, self._craft.note)
+
+    def _go_home(self) -> bool:
+        """Whether this step went into flying home and landing, after it has long had nothing to do."""
+        craft = self._craft
+        if not craft.airborne:
+            self._stay()
+            return False
+        self._idle_s = craft.now_s if self._idle_s is None else self._idle_s
+        if not craft.row.idle_home_s or craft.now_s - self._idle_s < craft.row.idle_home_s:
+            return False
+        self._homeward = self._homeward or (go_home(craft) if craft.home_m is not None else land_here(craft))
+        if next(self._homeward, THROUGH) is THROUGH:
+            self._stay()
+        return True
+
+    def _stay(self) -> None:
+        """It is not on its way home, and has only begun to be idle."""
+        if self._homeward is not None:
+            self._homeward.close()
+        self._homeward = self._idle_s = None
 
     def _step_aside(self) -> bool:
         """Whether this step went into clearing the way for somebody; on the ground nobody can be made way for."""

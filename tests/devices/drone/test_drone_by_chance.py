@@ -7,6 +7,7 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from devices.drone.airspace import Obstacle
 from devices.drone.pilot import Arm, Found, Hover, Land, Order, Setpoint, Shoot, Steer, TakeOff
 from devices.worker import Outcome
 from tests.devices.drone.scripted import STEP_S, Flown
@@ -35,6 +36,11 @@ ORDERS: tuple[dict[str, object], ...] = (
     {"go": True, "column_taken": True, "land_at_m": (3.0, 3.0)},
     {"go": True, "height_m": 2.1},
 )
+THINGS: tuple[dict[str, Obstacle], ...] = (
+    {},
+    {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)},
+    {"obj-2": Obstacle((2.0, 2.0), 0.8, 1.2)},
+)
 happenings = st.one_of(
     st.tuples(st.just("goal"), st.sampled_from(GOALS)),
     st.tuples(st.just("cancel"), st.none()),
@@ -47,6 +53,8 @@ happenings = st.one_of(
     st.tuples(st.just("health"), st.sampled_from(({"located": False}, {"battery": 0.1}, {"battery": 0.9}))),
     st.tuples(st.just("order"), st.sampled_from(ORDERS)),
     st.tuples(st.just("sink"), st.sampled_from((None, 0.2))),
+    st.tuples(st.just("climb"), st.sampled_from((None, 0.4))),
+    st.tuples(st.just("things"), st.sampled_from(THINGS)),
     st.tuples(st.just("deaf"), st.booleans()),
     st.tuples(st.just("link"), st.none()),
 )
@@ -83,7 +91,7 @@ class Watched(Flown):
     def happen(self, kind: str, what: Any) -> None:
         """To the drone and its hub, or to its autopilot."""
         match kind:
-            case "goal" if not self.goal:
+            case "goal" if not self.goal and not self.craft.by_hand:
                 self.begin(what[0], **what[1])
                 self.goal = True
             case "cancel" if self.goal:
@@ -110,6 +118,10 @@ class Watched(Flown):
                 self.pilot.says = replace(self.pilot.says, **what)
             case "sink":
                 self.pilot.sinks_mps = what
+            case "climb":
+                self.pilot.climbs_mps = what
+            case "things":
+                self.craft.space.obstacles = what
             case "deaf":
                 self.pilot.deaf = what
             case "link":
@@ -134,7 +146,7 @@ class Watched(Flown):
 @settings(max_examples=60)
 @given(st.lists(happenings, min_size=1, max_size=14))
 def test_it_stays_in_its_rooms_and_ends_in_hover(events):
-    flown = Watched(land_after_s=5.0)
+    flown = Watched(land_after_s=5.0, idle_home_s=0.0)
     for kind, what in events:
         flown.happen(kind, what)
     if flown.goal:
@@ -149,7 +161,7 @@ def test_it_stays_in_its_rooms_and_ends_in_hover(events):
 @settings(max_examples=60)
 @given(st.lists(happenings, min_size=1, max_size=14))
 def test_whatever_was_before_it_lands_when_all_is_well_again(events):
-    flown = Watched(land_after_s=5.0)
+    flown = Watched(land_after_s=5.0, idle_home_s=4.0)
     for kind, what in events:
         flown.happen(kind, what)
     if flown.goal:

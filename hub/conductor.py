@@ -197,6 +197,15 @@ class Conductor:
         if mine:
             self.fail(f"{robot} was lost", now_s, counted=False)
 
+    def look_for_help(self, now_s: float) -> None:
+        """Somebody is there by now who can what nobody could when a plan was made that leaves goals open."""
+        task = self.task
+        if task is None or task.run is None or task.status != "running" or task.halting or task.run.plan.complete:
+            return
+        fresh = sorted({who for skill, who in self._world.fleet.able().items() if skill not in task.able})
+        if fresh:
+            self.halt("replan", f"{' and '.join(fresh)} can help now", now_s)
+
     def fail(self, reason: str, now_s: float, counted: bool = True) -> None:
         """Something went wrong while robots act: stop them, then plan again."""
         task = self.task

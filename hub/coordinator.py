@@ -89,6 +89,7 @@ class Coordinator:
             if self._is_due("snapshot", _SNAPSHOT_S, now_s):
                 self._journal.keep({"world": write_world(self.world)})
             if self._is_due("state", _STATE_S, now_s):
+                self._conductor.look_for_help(now_s)
                 task.measure(self.world)
                 task.judge(self.world.snapshot(now_s))
                 self._voice.show(task)

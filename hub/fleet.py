@@ -26,6 +26,7 @@ class Robot:
     __slots__ = (
         "action_steps",
         "airborne",
+        "announced",
         "battery",
         "card",
         "goal_id",
@@ -53,7 +54,8 @@ class Robot:
         self.position_m: Vec3 = (0.0, 0.0, 0.0)
         self.yaw_rad = 0.0
         self.status: RobotStatus = "lost"
-        self.present = False
+        self.present = self.announced = False
+        """It reports; it has said what it can, and has not gone since."""
         self.holding = False
         self.holding_type: str | None = None
         self.inventory: str | None = None
@@ -140,12 +142,13 @@ class Fleet:
         return robot
 
     def take_card(self, card: DeviceCard) -> None:
-        self.robot(card.id).card = card
+        robot = self.robot(card.id)
+        robot.card, robot.announced = card, True
 
     def gone(self, id: str) -> None:
         """Its process went away."""
         if id in self.robots:
-            self.robots[id].present = False
+            self.robots[id].present = self.robots[id].announced = False
             self.robots[id].status = "lost"
 
     def check(self, now_s: float) -> list[str]:
@@ -157,8 +160,9 @@ class Fleet:
 
     def met(self, waited_s: float) -> bool:
         """Whether every robot has announced itself and heard of the hub; one that never does is not waited for."""
-        there = self.here()
-        return waited_s > _MEET_S or (bool(there) and all(r.card is not None and r.status != "lost" for r in there))
+        there = [r for r in self.robots.values() if r.present or r.announced]
+        ready = bool(there) and all(r.present and r.card is not None and r.status != "lost" for r in there)
+        return ready or waited_s > _MEET_S
 
     def near(self, point_enu_m: Vec3) -> bool:
         """Whether a robot's body is at this place."""
@@ -179,6 +183,10 @@ class Fleet:
         """What those who are there have announced, each skill once."""
         there = sorted(self.here(), key=lambda r: r.id)
         return tuple(dict.fromkeys(skill for r in there if r.card is not None for skill in r.card.skills))
+
+    def able(self) -> dict[str, str]:
+        """What can be done now, and by whom, for one."""
+        return {name: robot.id for robot in self.here() if robot.status != "lost" for name in robot.skills}
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

@@ -33,6 +33,7 @@ class Planning:
         if self._asked or now_s < self._due_s or not self._world.fleet.met(now_s - self._begun_s):
             return
         self._asked = True
+        task.able = frozenset(self._world.fleet.able())
         task.rename(self._world.things)
         request = PlanRequest(
             task=task.id,

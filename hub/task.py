@@ -36,6 +36,8 @@ class Task:
         self.reason = ""
         self.run: PlanRun | None = None
         self.watch: Watch | None = None
+        self.able: frozenset[str] = frozenset()
+        """Skills that the robots had when the plan was asked for."""
         self.failures: list[str] = []
         self.fails = self.replans = 0
         self.done_before = 0

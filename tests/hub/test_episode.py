@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tests.hub.home import GOALS, Flat
-from tests.hub.scenes import seen
+from tests.hub.scenes import card, seen
 from tests.hub.toys import ToyPlanner
 from wire.bus import Event
 from wire.messages.goal import Goal, Selector
@@ -199,6 +199,41 @@ def test_a_robot_that_dies_is_planned_around() -> None:
     assert state.status == "done"
     assert state.replans >= 1
     assert state.fails == 0
+
+
+def _in_part(request: PlanRequest) -> PlanReply:
+    reply = fetch(request)
+    assert reply.plan is not None
+    return reply.model_copy(update={"plan": reply.plan.model_copy(update={"complete": False})})
+
+
+def test_who_comes_late_and_can_what_nobody_could_is_planned_for() -> None:
+    home = Flat(_in_part)
+    home.mesh.run(3.0)
+    home.ask()
+    home.mesh.run(1.0)
+    asked = len(home.planner.requests)
+    fleet = home.hub.world.fleet
+    fleet.take_card(card("dog-2", (*fleet.robot("dog-2").skills, "inspect_from_above")))
+    home.mesh.run(2.0)
+    assert len(home.planner.requests) == asked + 1
+    assert "inspect_from_above" in [skill.name for skill in home.planner.requests[-1].skills]
+    home.mesh.run(1.0)
+    assert len(home.planner.requests) == asked + 1, "not again for the same"
+    state = home.mesh.call("task_query", TaskQuery(task="t-1"))
+    assert any("dog-2 can help now" in line for line in state.log), state.log
+
+
+def test_a_plan_that_leaves_nothing_open_is_not_made_anew_for_a_newcomer() -> None:
+    home = Flat(fetch)
+    home.mesh.run(3.0)
+    home.ask()
+    home.mesh.run(1.0)
+    asked = len(home.planner.requests)
+    fleet = home.hub.world.fleet
+    fleet.take_card(card("dog-2", (*fleet.robot("dog-2").skills, "inspect_from_above")))
+    home.mesh.run(2.0)
+    assert len(home.planner.requests) == asked
 
 
 class _Silent(ToyPlanner):

@@ -192,3 +192,16 @@ def test_nothing_moves_without_a_task() -> None:
     home.mesh.run(20.0)
     assert robot.walked == 0.0
     assert robot.holding
+
+
+def test_who_has_said_what_he_can_and_not_yet_where_he_is_is_waited_for() -> None:
+    world = World(flat())
+    world.report_robot(report("dog-1", 1.0, 1.0, 0.0))
+    world.fleet.take_card(card("dog-1"))
+    world.fleet.take_card(card("drone-1"))
+    assert not world.fleet.met(1.0)
+    assert world.fleet.met(5.0), "not for ever"
+    world.report_robot(report("drone-1", 2.0, 1.0, 0.1))
+    assert world.fleet.met(1.0)
+    world.fleet.gone("drone-1")
+    assert world.fleet.met(1.0), "nor for who went away"

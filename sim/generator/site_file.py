@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import degrees
 
+from sim.generator.starts import TOGETHER
 from sim.scene import CctvPose, Door, Room, Scene, Wall
 
 Value = str | int | float | bool | tuple["Value", ...]
@@ -49,7 +50,8 @@ def write_site(scene: Scene, options: Options | None = None) -> str:
             f"{options.drones} drones asked for: beside {options.robots} robots this home has starts for {most - options.robots}"
         )
     starts = scene.robot_starts[-options.robots :] if options.spread else scene.robot_starts[: options.robots]
-    drones = [start for start in scene.robot_starts if start not in starts][: options.drones]
+    apart = (*scene.robot_starts[TOGETHER:], *scene.robot_starts[:TOGETHER])  # where no walker begins or soon passes
+    drones = [start for start in apart if start not in starts][: options.drones]
     clock: dict[str, Value] = {"mode": options.clock}
     if drones:
         clock["speed"] = DRONE_SPEED

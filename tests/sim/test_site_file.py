@@ -1,7 +1,8 @@
 """The site file of a generated home says what the owner knows, and nothing of its objects."""
 
 import re
-from math import degrees
+import tomllib
+from math import degrees, dist
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from sim.generator import make_home
 from sim.generator.__main__ import main
 from sim.generator.site_file import Options, write_site
 from wire.catalogue import modelled_types
-from wire.site import load_site
+from wire.site import load_site, parse_site
 
 
 def test_round_trip(tmp_path: Path) -> None:
@@ -70,3 +71,12 @@ def test_faults_are_written_and_checked(tmp_path: Path, capsys: pytest.CaptureFi
 def test_too_many_robots() -> None:
     with pytest.raises(ValueError, match="99 robots"):
         write_site(make_home(3), Options(robots=99))
+
+
+@pytest.mark.parametrize("seed", [0, 4, 7])
+def test_a_drone_begins_where_nobody_walks_off(seed: int) -> None:
+    site = parse_site(tomllib.loads(write_site(make_home(seed), Options(drones=2))), "t")
+    drones = [robot.start_m for robot in site.robot if robot.kind == "drone"]
+    walkers = [robot.start_m for robot in site.robot if robot.kind != "drone"]
+    assert len(set(drones)) == 2
+    assert all(dist(a, b) > 2.0 for a in drones for b in walkers)

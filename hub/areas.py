@@ -30,6 +30,7 @@ class _Area:
     stamp_s: float | None = None
     source: str | None = None
     searched: bool = False
+    searches: int = 0
     from_above: set[str] = field(default_factory=set)
     """Names of the fields of `AreaState` that robots in the air have made true in this task."""
     shown: AreaState | None = None
@@ -85,7 +86,7 @@ class Areas:
         """Searches are counted from here."""
         for area in self._areas:
             area.robots = [0] * len(area.rows)
-            area.searched, area.touched = False, True
+            area.searched, area.searches, area.touched = False, 0, True
             area.from_above.clear()
 
     def flown_over(self, room: str, how: str, robot: str, stamp_s: float) -> None:
@@ -99,6 +100,7 @@ class Areas:
         area = self._by_id.get(room)
         if area is not None:
             area.searched, area.source, area.stamp_s, area.touched = True, robot, stamp_s, True
+            area.searches += 1
 
     def remember_searched(self, room: str) -> None:
         """As an earlier run of the hub knew it; who saw what when is not remembered."""
@@ -178,14 +180,19 @@ def _state(area: _Area) -> AreaState:
         stamp_s=area.stamp_s,
         source=area.source,
         searched=area.searched,
+        searches=area.searches,
         seen_from_above="seen_from_above" in area.from_above,
         surveyed="surveyed" in area.from_above,
     )
 
 
+def _told(area: AreaState) -> tuple[bool, int, bool, bool]:
+    return (area.searched, area.searches, area.seen_from_above, area.surveyed)
+
+
 def _differs(a: AreaState, b: AreaState) -> bool:
     return (
-        (a.searched, a.seen_from_above, a.surveyed) != (b.searched, b.seen_from_above, b.surveyed)
+        _told(a) != _told(b)
         or abs(a.seen_fraction - b.seen_fraction) >= 0.02
         or abs(a.camera_fraction - b.camera_fraction) >= 0.02
         or (b.stamp_s or 0.0) - (a.stamp_s or 0.0) >= 5.0

@@ -3,6 +3,8 @@
 from collections import OrderedDict
 from dataclasses import dataclass, field
 
+from wire.messages.world import AreaState
+
 TASKS_KEPT = 16
 
 
@@ -18,8 +20,12 @@ class Notes:
     """(thing, predicate) that plans have sent a robot to look at: mesh time of the first, and how many did."""
     changed: set[tuple[str, str]] = field(default_factory=set)
     """(thing, predicate) that plans have made so."""
-    searched_twice: set[str] = field(default_factory=set)
-    """Rooms searched once more after everything else was in vain."""
+    second_search: dict[str, int] = field(default_factory=dict)
+    """Rooms sent to once more after everything else was in vain, and how often they had been searched before that."""
+
+    def searched_again(self, area: AreaState) -> bool:
+        """Whether the second search was done; one that was cancelled was not."""
+        return area.id in self.second_search and area.searches > self.second_search[area.id]
 
 
 class Memory:

@@ -50,7 +50,8 @@ class Search:
                 places = self._rooms(want, again=True)
                 if not places:
                     hopeless.append(self._in_vain(want))
-                self._belief.notes.searched_twice.update(area.id for area in places)
+                for area in places:
+                    self._belief.notes.second_search.setdefault(area.id, area.searches)
             for area in places:
                 chance = max(normalised(t, places, self._belief)[area.id] for t in want.types)
                 rooms.setdefault(area.id, []).append((want, chance))
@@ -71,7 +72,7 @@ class Search:
             and (want.rooms is None or area.id in want.rooms)
             and area.id not in bans.rooms
             and not failures.spent("explore", area.id)
-            and (area.id not in notes.searched_twice if again else not area.searched)
+            and (not notes.searched_again(area) if again else not area.searched)
         ]
 
     def _closed(self, want: Wanted) -> list[ObjectState]:

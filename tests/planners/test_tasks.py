@@ -1,5 +1,6 @@
 """Whole tasks in a hidden toy house: plans are carried out and made again until the goals hold."""
 
+from collections import Counter
 from random import Random
 
 import pytest
@@ -11,7 +12,7 @@ from planners.scripted.planner import ScriptedPlanner
 from tests.planners.executor import run
 from tests.planners.toy import ROOMS, House, site
 from wire.goals import holds
-from wire.messages.plan import Plan, PlanReply
+from wire.messages.plan import Plan, PlanReply, PlanRequest
 from wire.messages.world import WorldState
 
 SMALL = ("Apple", "Book", "Bowl", "Mug", "Plate", "Tomato", "RemoteControl", "Newspaper")
@@ -103,6 +104,25 @@ def test_what_is_nowhere_is_said_after_a_search() -> None:
     assert "no TeddyBear was found" in refusal_of(reply)
     assert house.searched == {id for id, _, _ in ROOMS}
     assert len(replies) < 15
+
+
+def test_a_second_search_that_was_cancelled_is_made_all_the_same() -> None:
+    house = furnished(3, ())
+    house.searched, house.searches = {id for id, _, _ in ROOMS}, Counter({id: 1 for id, _, _ in ROOMS})
+    planner = ScriptedPlanner(site())
+
+    def rooms() -> set[str | None]:
+        request = PlanRequest(task="t", epoch=0, instruction="find the teddy bear", world=house.world(), now_s=1.0)
+        reply = planner.make_plan(request)
+        return {node.room for node in reply.plan.nodes if node.action == "explore"} if reply.plan is not None else set()
+
+    everywhere = {id for id, _, _ in ROOMS}
+    assert rooms() == everywhere
+    assert rooms() == everywhere, "a plan alone finds nothing"
+    house.searches["kitchen"] += 1
+    assert rooms() == everywhere - {"kitchen"}
+    house.searches.update(everywhere)
+    assert rooms() == set()
 
 
 def test_an_apple_hidden_in_a_closed_fridge_is_found_and_the_fridge_closed_again() -> None:

@@ -1,5 +1,6 @@
 """A small house whose contents are hidden until somebody looks; steps of plans are carried out in it."""
 
+from collections import Counter
 from dataclasses import dataclass, field
 from random import Random
 
@@ -76,6 +77,7 @@ class House:
         self.things: dict[str, Thing] = {}
         self.dogs = [Dog(f"dog-{i + 1}", (1.0 + i, 1.0), "kitchen") for i in range(dogs)]
         self.searched: set[str] = set()
+        self.searches = Counter[str]()
         self.cameras = cameras
         self.steps = 0
         self.seq = 0
@@ -138,6 +140,7 @@ class House:
                     seen_fraction=1.0 if id in self.searched else 0.4 * (id in self.cameras),
                     camera_fraction=0.4 * (id in self.cameras),
                     searched=id in self.searched,
+                    searches=self.searches[id],
                 )
                 for id, kind, _ in ROOMS
             ),
@@ -197,6 +200,7 @@ class House:
             self.see(dog, thing)
         if not found:
             self.searched.add(node.room or "")
+            self.searches[node.room or ""] += 1
 
     def _handle(self, node: PlanNode, dog: Dog, thing: Thing) -> None:
         if node.action == "pickup":

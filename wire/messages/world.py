@@ -81,6 +81,8 @@ class AreaState(Message):
     source: Id | None = None
     searched: bool = False
     """A robot has gone through this room and looked at all of it in the current task."""
+    searches: int = Field(default=0, ge=0)
+    """How many robots have gone through it to the end in the current task."""
     seen_from_above: bool = Field(default=False, exclude_if=unset)
     """A robot has hovered in this room in the current task and looked down."""
     surveyed: bool = Field(default=False, exclude_if=unset)

@@ -153,7 +153,7 @@ def fly_to(craft: Craft, goal_m: Vec3, facing: Facing | None = None, limits: Lim
             while craft.now_s - asked_s < WAY_AGAIN_S:
                 yield
                 if craft.by_hand:
-                    return _taken_over(craft)
+                    return taken_over(craft)
             way = yield from _way(craft, craft.space, goal_m)
     return (yield from fly(craft, Course(along_legs(way), limits), facing or ahead))
 
@@ -205,7 +205,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
         craft.get_on(follower.fraction)
         yield
         if craft.taken_over:
-            return _taken_over(craft)
+            return taken_over(craft)
         if follower.late_s > LATE_S:
             off_m = dist(craft.position_m, course.at(follower.clock_s)[0])
             return failed("blocked", f"does not get on: {off_m:.1f} m from where it should be{craft.why()}")
@@ -213,7 +213,7 @@ def fly(craft: Craft, course: Course, facing: Facing) -> Trouble:
     return None
 
 
-def _taken_over(craft: Craft) -> Outcome:
+def taken_over(craft: Craft) -> Outcome:
     return failed("interrupted", f"the autopilot has gone over to {craft.mode}{craft.why()}")
 
 
@@ -223,7 +223,9 @@ def _come_back(craft: Craft, where_m: Vec3) -> Trouble:
 
 
 def _take_up(craft: Craft, where_m: Vec3, yaw_rad: float) -> Trouble:
-    """Begin to steer there."""
+    """Begin to steer there, unless a person has taken it over meanwhile."""
+    if craft.by_hand:
+        return taken_over(craft)
     if reason := (yield from obey(craft, Steer(Setpoint(where_m, STILL, yaw_rad)))):
         return failed("driver", f"the autopilot takes no setpoints: {reason}")
     return None
@@ -252,7 +254,7 @@ def turn(craft: Craft, wanted_rad: float) -> Trouble:
         craft.stop_m = where_m
         yield
         if craft.taken_over:
-            return _taken_over(craft)
+            return taken_over(craft)
         if craft.now_s - begun_s > TURN_S:
             return failed("driver", f"does not turn{craft.why()}")
     return None

@@ -3,7 +3,7 @@
 from math import dist
 
 from devices.drone.craft import Craft
-from devices.drone.flight import Trouble, failed, fly_to, obey
+from devices.drone.flight import Trouble, failed, fly_to, obey, taken_over
 from devices.drone.pilot import Disarm
 from devices.drone.route import nearest_open
 
@@ -19,6 +19,8 @@ def come_down(craft: Craft) -> Trouble:
         return trouble
     begun_s = craft.now_s
     while craft.airborne:
+        if craft.by_hand:
+            return taken_over(craft)
         craft.note = "landing"
         craft.land()
         if craft.landing_refused and craft.now_s - begun_s > LANDING_REFUSED_S:

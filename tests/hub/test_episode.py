@@ -1,6 +1,6 @@
 """Algorithm 1 over the in-memory mesh: toy robots, a camera, a list of plans."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tests.hub.home import GOALS, Flat
@@ -207,8 +207,9 @@ def _in_part(request: PlanRequest) -> PlanReply:
     return reply.model_copy(update={"plan": reply.plan.model_copy(update={"complete": False})})
 
 
-def test_who_comes_late_and_can_what_nobody_could_is_planned_for() -> None:
-    home = Flat(_in_part)
+def _with_a_newcomer(planner: Callable[[PlanRequest], PlanReply]) -> tuple[Flat, int]:
+    """While its plan runs, one more skill is announced; and how often the planner had been asked before that."""
+    home = Flat(planner)
     home.mesh.run(3.0)
     home.ask()
     home.mesh.run(1.0)
@@ -216,6 +217,11 @@ def test_who_comes_late_and_can_what_nobody_could_is_planned_for() -> None:
     fleet = home.hub.world.fleet
     fleet.take_card(card("dog-2", (*fleet.robot("dog-2").skills, "inspect_from_above")))
     home.mesh.run(2.0)
+    return home, asked
+
+
+def test_who_comes_late_and_can_what_nobody_could_is_planned_for() -> None:
+    home, asked = _with_a_newcomer(_in_part)
     assert len(home.planner.requests) == asked + 1
     assert "inspect_from_above" in [skill.name for skill in home.planner.requests[-1].skills]
     home.mesh.run(1.0)
@@ -225,14 +231,7 @@ def test_who_comes_late_and_can_what_nobody_could_is_planned_for() -> None:
 
 
 def test_a_plan_that_leaves_nothing_open_is_not_made_anew_for_a_newcomer() -> None:
-    home = Flat(fetch)
-    home.mesh.run(3.0)
-    home.ask()
-    home.mesh.run(1.0)
-    asked = len(home.planner.requests)
-    fleet = home.hub.world.fleet
-    fleet.take_card(card("dog-2", (*fleet.robot("dog-2").skills, "inspect_from_above")))
-    home.mesh.run(2.0)
+    home, asked = _with_a_newcomer(fetch)
     assert len(home.planner.requests) == asked
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from devices.drone.pilot import Said
 from tests.devices.drone.scripted import Flown, kinds
+from wire.messages.command import TrafficOrder
 
 
 def test_who_takes_over_is_left_alone():
@@ -35,6 +36,40 @@ def test_who_takes_it_by_hand_has_it_until_the_mode_is_switched_back():
     flown.pilot.says = replace(flown.pilot.says, mode="HOLD")
     flown.pause(1.0)
     assert flown.fault_of("take_off") == ""
+
+
+def test_who_takes_it_by_hand_while_it_waits_to_climb_on_keeps_it():
+    flown = Flown()
+    flown.pilot.climbs_mps = 0.5
+    flown.begin("goto", point_m=(7.0, 3.0))
+    flown.work(1.5)
+    flown.worker.halt()  # it does not climb any more
+    taken = {"robot": "drone-1", "seq": 1, "stamp_s": 1.0, "go": True, "column_taken": True}
+    flown.craft.order = TrafficOrder.model_validate(taken)
+    flown.work(1.0)
+    flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")
+    flown.work(0.5)
+    orders = len(flown.pilot.orders)
+    flown.craft.order = None
+    outcome = flown.work(5.0)
+    assert outcome is not None
+    assert (outcome.code, len(flown.pilot.orders)) == ("interrupted", orders)
+
+
+def test_who_takes_it_by_hand_while_it_waits_to_land_keeps_it():
+    flown = Flown()
+    flown.do("take_off")
+    taken = {"robot": "drone-1", "seq": 1, "stamp_s": 1.0, "go": True, "column_taken": True}
+    flown.craft.order = TrafficOrder.model_validate(taken)
+    flown.begin("land")
+    flown.work(1.0)
+    flown.pilot.says = replace(flown.pilot.says, mode="ALTCTL")
+    flown.work(0.5)
+    orders = len(flown.pilot.orders)
+    flown.craft.order = None
+    outcome = flown.work(5.0)
+    assert outcome is not None
+    assert (outcome.code, len(flown.pilot.orders)) == ("interrupted", orders)
 
 
 def test_modes_of_sticks_mean_nothing_before_it_has_flown():

@@ -121,9 +121,11 @@ def _flyers(mesh: Mesh, site: Site, here: set[str]) -> dict[str, RobotState]:
     return {robot.id: robot for robot in world.robots if robot.id in rows}
 
 
-def flight_row(flyer: RobotState | None) -> dict[str, float | None]:
-    """The same for programs; None where the battery is not told."""
-    return {} if flyer is None else {"height_m": round(flyer.position_enu_m[2], 2), "battery": flyer.battery}
+def flight_row(flyer: RobotState | None) -> dict[str, float | str | None]:
+    """The same for programs; None where the battery is not told. `robot`: `lost` unheard, `fault` flown by hand."""
+    if flyer is None:
+        return {}
+    return {"height_m": round(flyer.position_enu_m[2], 2), "battery": flyer.battery, "robot": flyer.status}
 
 
 def flight_text(flyer: RobotState | None) -> str:

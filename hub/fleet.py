@@ -186,7 +186,8 @@ class Fleet:
 
     def able(self) -> dict[str, str]:
         """What can be done now, and by whom, for one."""
-        return {name: robot.id for robot in self.here() if robot.status != "lost" for name in robot.skills}
+        there = (robot for robot in self.here() if robot.status not in ("lost", "fault"))
+        return {name: robot.id for robot in there for name in robot.skills}
 
     def states(self) -> tuple[RobotState, ...]:
         return tuple(self._state(robot) for robot in self._ordered())

@@ -9,7 +9,7 @@ import numpy as np
 import rerun.blueprint as rrb
 
 from console.floor_map import FloorMap
-from console.mesh_commands import flight_text
+from console.mesh_commands import flight_row, flight_text
 from console.operate_commands import why_text
 from hub.view.blueprint import blueprint
 from hub.view.core import ViewCore, open_recording
@@ -119,4 +119,6 @@ def test_the_terminal_tells_height_and_battery() -> None:
     )
     assert flight_text(drone.model_copy(update={"status": "lost"})) == "  its autopilot is not heard"
     assert flight_text(drone.model_copy(update={"status": "fault"})) == "  1.5 m high, battery 61%, flown by hand"
+    assert flight_row(drone) == {"height_m": 1.5, "battery": drone.battery, "robot": drone.status}
+    assert flight_row(None) == {}
     assert flight_text(None) == ""

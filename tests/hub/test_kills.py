@@ -203,5 +203,9 @@ def test_who_has_said_what_he_can_and_not_yet_where_he_is_is_waited_for() -> Non
     assert world.fleet.met(5.0), "not for ever"
     world.report_robot(report("drone-1", 2.0, 1.0, 0.1))
     assert world.fleet.met(1.0)
+    assert "drone-1" in world.fleet.able().values()
+    for status in ("lost", "fault"):
+        world.report_robot(report("drone-1", 2.0, 1.0, 0.2, status=status))
+        assert "drone-1" not in world.fleet.able().values()
     world.fleet.gone("drone-1")
     assert world.fleet.met(1.0), "nor for who went away"

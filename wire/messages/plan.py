@@ -97,6 +97,40 @@ class PlanRequest(Message):
     now_s: Stamp
 
 
+CallOutcome = Literal[
+    "ok",
+    "unreachable",  # no server, or no such model there
+    "busy",
+    "timeout",
+    "broken",  # the connection or the reply ended early, or the reply is not the protocol's
+    "truncated",  # the prompt or the reply did not fit
+    "looping",  # the server stopped a model that repeated itself
+    "empty",
+    "refused",  # the server answered with an error
+    "invalid",  # a whole reply, but not what was asked for
+]
+
+
+class ModelCall(Message):
+    """One call of a language model, as it was counted."""
+
+    purpose: Word
+    model: Text
+    outcome: CallOutcome
+    prompt_tokens: int = Field(default=0, ge=0)
+    completion_tokens: int = Field(default=0, ge=0)
+    counted_by: Text = "server"
+    """`server`: its own counters; otherwise the name of the tokenizer that a stand-in counts with."""
+    latency_s: float = Field(default=0.0, ge=0.0)
+    seed: int = 0
+    schema_hash: Text = ""
+    """First digits of the SHA-256 of the schema that the reply was held to; empty for free text."""
+    stand_in: bool = False
+    """The server is a stand-in without a model: nothing is learned of any model from this call."""
+    cached: bool = False
+    """Answered from the replies of an earlier run; its tokens were spent then."""
+
+
 class PlanReply(Message):
     """Exactly one of plan and refusal. A plan without nodes says: all goals already hold."""
 
@@ -104,6 +138,8 @@ class PlanReply(Message):
     epoch: int = Field(ge=0)
     plan: Plan | None = None
     refusal: Refusal | None = None
+    calls: tuple[ModelCall, ...] = Field(default=(), max_length=64)
+    """Every call of a model that was made for it, failed ones too."""
 
 
 class NodeState(Message):

@@ -65,6 +65,8 @@ def _succeeded(world: World, node: PlanNode, robot: str, result: Result, types: 
     elif node.action in CHANGES:
         name, value = CHANGES[node.action]
         handle(world.property_of(thing, name), robot, value, result.stamp_s)
+    elif node.action == "inspect" and "isOpen" in thing.facts and thing.facts["isOpen"].value:
+        thing.looked_into = True
     touched(thing, robot, result.stamp_s)
 
 

@@ -53,6 +53,7 @@ def _write_thing(thing: Thing) -> dict[str, Any]:
     row |= {"id": thing.id, "type": thing.type, "receptacle": thing.receptacle, "room": thing.room}
     row |= {"source": thing.last_source, "verified": thing.verified, "votes": thing.votes}
     row |= {"from_above": True} if thing.from_above else {}
+    row |= {"looked_into": True} if thing.looked_into else {}
     row["sights"] = {s: [v.robot, v.support, v.stamp_s, v.confidence, v.hits] for s, v in thing.sights.items()}
     row["facts"] = {
         name: {s: [c.probability, c.stamp_s, c.handled] for s, c in fact.claims.items()}
@@ -67,7 +68,7 @@ def _read_thing(row: dict[str, Any]) -> Thing:
         setattr(thing, name, row[name])
     thing.receptacle, thing.room, thing.last_source = row["receptacle"], row["room"], row["source"]
     thing.verified, thing.votes = row["verified"], row["votes"]
-    thing.from_above = row.get("from_above", False)
+    thing.from_above, thing.looked_into = row.get("from_above", False), row.get("looked_into", False)
     thing.placed_x, thing.placed_y, thing.placed_z = thing.x, thing.y, thing.z
     for source, (robot, support, stamp_s, confidence, hits) in row["sights"].items():
         sight = thing.sights[source] = Sight(robot)

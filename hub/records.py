@@ -86,6 +86,7 @@ class Thing:
         "id",
         "last_source",
         "locked",
+        "looked_into",
         "mark",
         "placed_x",
         "placed_y",
@@ -134,6 +135,8 @@ class Thing:
         self.verified = False
         self.from_above = False
         """A robot has hovered over it in this task and looked down."""
+        self.looked_into = False
+        """A robot has looked into it, open, in this task."""
         self.receptacle: str | None = None
         self.room: str | None = None
         self.facts: dict[str, Fact] = {}

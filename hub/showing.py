@@ -71,6 +71,7 @@ def state(thing: Thing, now_s: float) -> ObjectState:
         verified=thing.verified,
         maybe=_maybe(thing),
         seen_from_above=thing.from_above,
+        looked_into=thing.looked_into,
     )
 
 

@@ -129,8 +129,8 @@ class World:
         """What goals ask a robot to have seen or searched counts from now."""
         self.areas.begin_task()
         for thing in self.things:
-            if thing.from_above:
-                thing.from_above = False
+            if thing.from_above or thing.looked_into:
+                thing.from_above = thing.looked_into = False
                 thing.version += 1
                 self.things.touch(thing)
             if thing.verified and thing.receptacle not in self.fleet.robots:
@@ -274,6 +274,7 @@ class World:
         keep.hits += drop.hits
         keep.verified = keep.verified or drop.verified
         keep.from_above = keep.from_above or drop.from_above
+        keep.looked_into = keep.looked_into or drop.looked_into
         keep.version += 1
         self.things.touch(keep)
         for thing in self.things.inside(drop):

@@ -15,7 +15,7 @@ class Notes:
     opened: set[str] = field(default_factory=set)
     """Closed things that the plans have opened, to be closed again."""
     peeked: set[str] = field(default_factory=set)
-    """Closed things opened to look what is inside."""
+    """Closed things that plans have opened to look what is inside."""
     sent_to_look: dict[tuple[str, str], tuple[float, int]] = field(default_factory=dict)
     """(thing, predicate) that plans have sent a robot to look at: mesh time of the first, and how many did."""
     changed: set[tuple[str, str]] = field(default_factory=set)

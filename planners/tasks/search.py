@@ -83,19 +83,21 @@ class Search:
             obj
             for obj in sorted(belief.world.objects, key=lambda o: o.id)
             if type_row(obj.type).must_open
-            and not belief.is_open(obj)
-            and obj.id not in belief.notes.peeked
+            and not obj.looked_into
+            and (obj.id in belief.notes.peeked or not belief.is_open(obj))
             and (want.rooms is None or obj.room in want.rooms)
             and max(inside_prior(t, obj) for t in want.types) >= least
             and not belief.bans.forbids("open", obj)
             and not belief.failures.spent("open", obj.id)
+            and not belief.failures.spent("inspect", obj.id)
             and belief.held_by(obj) is None
         ]
 
     def _peek(self, holder: ObjectState, want: Wanted) -> Job:
+        """One that was opened for a look which did not come about is still to be looked into."""
         self._belief.notes.peeked.add(holder.id)
         self._belief.notes.opened.add(holder.id)
-        steps = [on("open", holder), on("inspect", holder)]
+        steps = [on("inspect", holder)] if self._belief.is_open(holder) else [on("open", holder), on("inspect", holder)]
         chance = max(inside_prior(t, holder) for t in want.types)
         return Job(steps, want.goal, about=frozenset({holder.id}), weight=chance)
 

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hub import effects
+from hub.memory import read_world, write_world
 from hub.world import World
 from tests.hub.scenes import batch, card, flat, report, seen, view
 from wire.messages.command import Result
@@ -179,6 +180,22 @@ def test_what_is_seen_at_a_closed_fridge_is_not_in_it() -> None:
     assert _one(world, "Tomato", 10.0).receptacle is None
     look(12.0, 0.95)
     assert _one(world, "Tomato", 20.0).receptacle == _one(world, "Fridge", 20.0).id
+
+
+def test_who_looks_into_something_open_has_looked_into_it_until_the_task_ends() -> None:
+    world = _kitchen()
+    _act(world, "inspect", "Fridge")
+    assert not _one(world, "Fridge").looked_into, "it is closed"
+    _act(world, "open", "Fridge", now_s=5.0)
+    _act(world, "inspect", "Fridge", now_s=6.0, status="cancelled", code="cancelled")
+    assert not _one(world, "Fridge").looked_into
+    _act(world, "inspect", "Fridge", now_s=7.0)
+    assert _one(world, "Fridge").looked_into
+    restarted = World(flat())
+    read_world(restarted, write_world(world))
+    assert _one(restarted, "Fridge").looked_into
+    world.begin_task()
+    assert not _one(world, "Fridge").looked_into
 
 
 def test_a_hand_holds_what_it_took_whatever_is_believed() -> None:

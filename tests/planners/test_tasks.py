@@ -136,6 +136,27 @@ def test_an_apple_hidden_in_a_closed_fridge_is_found_and_the_fridge_closed_again
     assert not house.things["fridge-1"].props["isOpen"]
 
 
+def test_a_look_into_something_closed_that_was_cancelled_is_made_all_the_same() -> None:
+    house = House(0)
+    house.searched, house.searches = {id for id, _, _ in ROOMS}, Counter({id: 1 for id, _, _ in ROOMS})
+    fridge = house.add("Fridge", "kitchen")
+    house.see(house.dogs[0], fridge)
+    planner = ScriptedPlanner(site())
+
+    def looks() -> list[str]:
+        request = PlanRequest(task="t", epoch=0, instruction="find the lettuce", world=house.world(), now_s=1.0)
+        reply = planner.make_plan(request)
+        return [node.action for node in reply.plan.nodes if node.object == fridge.id] if reply.plan is not None else []
+
+    assert looks() == ["open", "inspect"]
+    assert looks() == ["open", "inspect"], "a plan alone finds nothing"
+    fridge.props["isOpen"] = True
+    house.see(house.dogs[0], fridge)
+    assert looks() == ["inspect", "close"], "it was opened, but nobody looked into it"
+    fridge.looked_into = True
+    assert "inspect" not in looks()
+
+
 def test_another_instance_is_taken_when_one_fails() -> None:
     house = House(1, cameras=tuple(id for id, _, _ in ROOMS))
     for type in ("CounterTop", "CounterTop", "Sink"):

@@ -59,6 +59,7 @@ class Thing:
     known: bool = False
     verified: bool = False
     known_props: dict[str, tuple[bool, float, str]] = field(default_factory=dict)
+    looked_into: bool = False
 
 
 @dataclass
@@ -161,6 +162,7 @@ class House:
             stamp_s=0.0,
             confidence=0.95 if t.verified else 0.8,
             verified=t.verified,
+            looked_into=t.looked_into,
         )
 
     # Carrying out
@@ -224,6 +226,8 @@ class House:
             if node.action == "open" and thing.type == "Microwave":
                 assert not thing.props["isToggled"]
             thing.props["isOpen"] = node.action == "open"
+        elif node.action == "inspect":
+            thing.looked_into = thing.props.get("isOpen", False)
         elif node.action in ("toggle_on", "toggle_off"):
             if node.action == "toggle_on" and thing.type == "Microwave":
                 assert not thing.props["isOpen"]

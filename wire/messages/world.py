@@ -66,6 +66,8 @@ class ObjectState(Message):
     """Other types that a good part of the looks took it for."""
     seen_from_above: bool = Field(default=False, exclude_if=unset)
     """A robot has hovered over it in the current task and looked down."""
+    looked_into: bool = Field(default=False, exclude_if=unset)
+    """A robot has looked into it, open, in the current task."""
 
 
 class AreaState(Message):

@@ -8,6 +8,7 @@ import queue
 import threading
 import time
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 
 import torch
@@ -16,11 +17,14 @@ from sim.training.batches import Batch, Sampler
 from sim.training.export import export
 from sim.training.losses import head_loss
 from sim.training.network import DetectorNetwork
+from sim.training.resume import resume
 from sim.training.shards import read_shards
 
 log = logging.getLogger("train")
 
 WARM_UP = 200
+RESUME_BATCHES = 8
+"""That the statistics of the normalisation are taken from where the file has none."""
 AVERAGE = 0.998
 """Of the running mean of the weights, which is what is kept."""
 
@@ -34,6 +38,14 @@ class Trainer:
         self.mean = copy.deepcopy(self.network)
         self.optimiser = torch.optim.AdamW(self.network.parameters(), rate, weight_decay=1e-4)
         self.steps, self.step, self._peak, self._bfloat16 = steps, 0, rate, bfloat16
+
+    def start_from(self, path: Path, batches: Iterable[Batch]) -> None:
+        """Go on from the weights of an earlier run, a checkpoint or the exported network."""
+        if path.suffix == ".onnx":
+            resume(self.network, path, [torch.from_numpy(batch.pictures) for batch in islice(batches, RESUME_BATCHES)])
+        else:
+            self.network.load_state_dict(torch.load(path))
+        self.mean.load_state_dict(self.network.state_dict())
 
     def learn(self, batch: Batch) -> dict[str, float]:
         """One step; returns the terms of the loss."""
@@ -76,7 +88,7 @@ def main() -> None:
     parser.add_argument("--bfloat16", action="store_true", help="faster where the processor has AMX, slower elsewhere")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--keep", type=int, default=1000, help="write the weights every so many steps")
-    parser.add_argument("--start", type=Path, help="a checkpoint to go on from, with a fresh schedule")
+    parser.add_argument("--start", type=Path, help="weights to go on from, .pt or .onnx, with a fresh schedule")
     parser.add_argument("--out", type=Path, required=True)
     arguments = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(message)s")
@@ -84,10 +96,10 @@ def main() -> None:
     shard = read_shards(list(arguments.frames.glob("*.npz")))
     log.info("%d pictures, %d labels", len(shard.jpegs), len(shard.labels))
     trainer = Trainer(arguments.steps, arguments.seed, arguments.rate, arguments.bfloat16)
+    sampler = Sampler(shard, arguments.batch, arguments.seed)
     if arguments.start is not None:
-        trainer.network.load_state_dict(torch.load(arguments.start))
-        trainer.mean.load_state_dict(trainer.network.state_dict())
-    run(trainer, Sampler(shard, arguments.batch, arguments.seed), arguments.keep, arguments.out)
+        trainer.start_from(arguments.start, sampler)
+    run(trainer, sampler, arguments.keep, arguments.out)
 
 
 def prefetch(batches: Iterable[Batch]) -> Iterator[Batch]:

@@ -22,6 +22,8 @@ class Question:
     max_tokens: int = 512
     temperature: float = 0.0
     seed: int = 0
+    think: bool = False
+    """Have a model that can do so think first, in words that are not part of the answer."""
 
 
 @dataclass(frozen=True)
@@ -33,11 +35,21 @@ class Answer:
 
 
 class ModelFailed(Exception):
-    """There is no answer: `call.outcome` is the kind of failure, the exception's text the sentence for people."""
+    """There is no answer: `call.outcome` is the kind of failure, the exception's text the sentence for people.
 
-    def __init__(self, reason: str, call: ModelCall) -> None:
+    A planner lets it pass (`planners.modelled` sees to what comes then), and raises one itself where answers are of no
+    use to it: `ModelFailed(reason, rejected(answer))`.
+    """
+
+    def __init__(self, reason: str, call: ModelCall, again: bool = True) -> None:
+        """`again`: the same question may get an answer another time."""
         super().__init__(reason)
-        self.call = call
+        self.call, self.again = call, again
+
+
+def rejected(answer: Answer) -> ModelCall:
+    """The record of an answer that was not what was asked for. In `PlanReply.calls` it stands for the call's own."""
+    return answer.call.model_copy(update={"outcome": "invalid"})
 
 
 class Model(Protocol):

@@ -99,12 +99,7 @@ def counted(reply: PlanReply, calls: tuple[ModelCall, ...], note: str) -> PlanRe
 def _with_verdicts(calls: tuple[ModelCall, ...], judged: tuple[ModelCall, ...]) -> tuple[ModelCall, ...]:
     """A whole answer may be of no use: then the planner's word on it stands in the record, not the server's."""
     bad = [call.model_copy(update={"outcome": "ok"}) for call in judged if call.outcome == "invalid"]
-    told = []
-    for call in calls:
-        if call in bad:
-            bad.remove(call)
-            call = call.model_copy(update={"outcome": "invalid"})
-        told.append(call)
+    told = [call.model_copy(update={"outcome": "invalid"}) if call in bad else call for call in calls]
     return tuple(told)
 
 

@@ -98,6 +98,11 @@ view *args: install
 record *args: install
     exec {{ python }} -m console record "$@"
 
+# what a task has cost the language model, call by call: tokens [TASK] (--json)
+[group('watch')]
+tokens *args: install
+    exec {{ python }} -m console tokens "$@"
+
 # a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
 [group('fly')]
 sitl *args: install

@@ -5,7 +5,7 @@ from typing import cast
 
 import typer
 
-from console import cost_commands, mesh_commands, operate_commands, watch_commands
+from console import cost_commands, doctor_commands, mesh_commands, operate_commands, watch_commands
 from console.output import say_failure
 
 _UsageError = cast("type[typer.BadParameter]", typer.BadParameter.__base__)
@@ -15,6 +15,7 @@ mesh_commands.register(app)
 operate_commands.register(app)
 watch_commands.register(app)
 cost_commands.register(app)
+doctor_commands.register(app)
 
 
 def run(words: Sequence[str]) -> int:

@@ -64,6 +64,12 @@ class OllamaModel:
             self._loading = threading.Thread(target=lambda: asyncio.run(self._load()), name="load", daemon=True)
             self._loading.start()
 
+    def loading_is_over(self, limit_s: float) -> bool:
+        """Wait for the loading that `start` began, whatever came of it, but not for longer than this."""
+        if self._loading is not None:
+            self._loading.join(limit_s)
+        return self._loading is None or not self._loading.is_alive()
+
     def ask(self, question: Question) -> Answer:
         with self._lock:
             return self._ask(question)
@@ -87,10 +93,7 @@ class OllamaModel:
         raise ModelFailed(f"{self._name}: {fault.text}", call, fault.again)
 
     def _wait_for_loading(self) -> Fault | None:
-        if self._loading is None or not self._loading.is_alive():
-            return None
-        self._loading.join(self._choice.timeout_s)
-        if not self._loading.is_alive():
+        if self.loading_is_over(self._choice.timeout_s):
             return None
         return Fault(
             "timeout", f"it is still being loaded, {time.monotonic() - self._loading_since_s:.0f} s so far", again=False

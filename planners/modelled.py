@@ -3,6 +3,7 @@
 import importlib.util
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planners.asking import Model, ModelFailed
@@ -67,6 +68,19 @@ class Modelled:
         return PlanReply(task=request.task, epoch=request.epoch, refusal=Refusal(reason=why[:2000]))
 
 
+@dataclass(frozen=True)
+class Row:
+    """A row of PLANNERS whose planner has a model. See `modelled`."""
+
+    make: Callable[[Site, Model], "Planner"]
+    open_model: Callable[[Site], Model] | None
+    sleep: Callable[[float], None]
+
+    def __call__(self, site: Site) -> "Planner":
+        meter = Meter((self.open_model or model_of)(site), site.planner.budget, site.planner.seed)
+        return Modelled(site, self.make(site, RetryingModel(meter, self.sleep)), meter)
+
+
 def modelled(
     make: Callable[[Site, Model], "Planner"],
     open_model: Callable[[Site], Model] | None = None,
@@ -76,12 +90,12 @@ def modelled(
 
     `open_model` opens another model than the site file's, for tests.
     """
+    return Row(make, open_model, sleep)
 
-    def build(site: Site) -> "Planner":
-        meter = Meter((open_model or model_of)(site), site.planner.budget, site.planner.seed)
-        return Modelled(site, make(site, RetryingModel(meter, sleep)), meter)
 
-    return build
+def has_model(row: Callable[[Site], "Planner"]) -> bool:
+    """Whether a row of the table asks a model."""
+    return isinstance(row, Row)
 
 
 def counted(reply: PlanReply, calls: tuple[ModelCall, ...], note: str) -> PlanReply:
@@ -103,14 +117,21 @@ def _with_verdicts(calls: tuple[ModelCall, ...], judged: tuple[ModelCall, ...]) 
     return tuple(told)
 
 
+def missing_client(site: Site) -> str:
+    """A sentence where the client of model servers is not installed; else nothing."""
+    if importlib.util.find_spec("ollama") is not None:
+        return ""
+    return f"{site.planner.name} asks a model: install the extra `model`, or choose {SCRIPTED}"
+
+
 def model_of(site: Site) -> Model:
     """The model of the site file, being loaded while the process comes up. Raises SiteError."""
     choice = site.planner
     folder = state_dir(site) / "replies"
     if choice.replies == "only":
         return KeptReplies(folder, choice.model, choice.num_ctx, None)
-    if importlib.util.find_spec("ollama") is None:
-        raise SiteError(f"planner.name: {choice.name} asks a model: install the extra `model`, or choose {SCRIPTED}")
+    if fault := missing_client(site):
+        raise SiteError(f"planner.name: {fault}")
     from planners.model import OllamaModel  # only a planner that has a model needs the client
 
     model = OllamaModel(choice)

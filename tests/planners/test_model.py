@@ -178,8 +178,7 @@ def test_a_bad_address_in_the_environment_is_no_traceback(monkeypatch: pytest.Mo
 def loaded(model: OllamaModel, patience_s: float | None = None) -> OllamaModel:
     """The model, once it is loaded; then with more patience, so that a busy machine fails no test."""
     model.start()
-    assert model._loading is not None
-    model._loading.join(30.0)
+    assert model.loading_is_over(30.0)
     if patience_s is not None:
         model._choice = model._choice.model_copy(update={"timeout_s": patience_s})
     return model

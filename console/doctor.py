@@ -6,12 +6,15 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from deploy.modules import missing_modules
 from deploy.ports import taken_ports
 from wire.planner_table import PlannerChoice
 from wire.site import Site
+
+if TYPE_CHECKING:
+    from planners.model_inspection import ServerState
 
 _PYTHON = (3, 11)
 _TRY_OPENGL = "from sim.render.choose import TRIAL; exec(TRIAL)"
@@ -89,25 +92,29 @@ def _display() -> Check:
 
 
 def _planner(site: Site) -> Iterator[Check]:
-    from planners.modelled import has_model, missing_client
+    from planners.modelled import has_model
+    from planners.opening import missing_client
     from planners.planner import PLANNERS  # the grammar comes with it, which no other command needs
 
     choice = site.planner
     if choice.name not in PLANNERS:
         yield Check("planner", "missing", f"there is no {choice.name!r}", f"planner.name: {', '.join(PLANNERS)}")
-    elif not has_model(PLANNERS[choice.name]):
+        return
+    asked = [choice.model] if has_model(PLANNERS[choice.name]) else []
+    asked += [choice.vision] if choice.vision and choice.vision not in asked else []
+    if not asked:
         yield Check("planner", "ok", f"{choice.name} needs no language model")
     elif choice.replies == "only":
-        yield Check("planner", "ok", f"{choice.name} has kept replies of {choice.model} and asks no server")
-    elif fault := missing_client(site):
+        yield Check("planner", "ok", f"{choice.name} has kept replies of {' and '.join(asked)} and asks no server")
+    elif fault := missing_client():
         yield Check("planner", "missing", fault)
     else:
-        yield Check("planner", "ok", f"{choice.name} with {choice.model}")
-        yield from server_checks(choice)
+        yield Check("planner", "ok", f"{choice.name}{f', with {choice.vision} for pictures' if choice.vision else ''}")
+        yield from server_checks(choice, asked)
 
 
-def server_checks(choice: PlannerChoice) -> Iterator[Check]:
-    """The model server: does it run, has it the model, what can that do, and how long is its context really."""
+def server_checks(choice: PlannerChoice, models: list[str]) -> Iterator[Check]:
+    """The model server: does it run, has it the models, what can they do, and how long is their context really."""
     from planners.model_inspection import inspect
 
     state = inspect(choice)
@@ -115,12 +122,22 @@ def server_checks(choice: PlannerChoice) -> Iterator[Check]:
         yield Check("server", "missing", state.fault.text if state.fault else "", _serve(state.host))
         return
     yield Check("server", "ok", f"answers at {state.host}, with {', '.join(state.pulled) or 'no model yet'}")
+    for name in models:
+        one = choice.model_copy(update={"model": name})
+        yield from _model_checks(one, inspect(one), must_see=name == choice.vision)
+
+
+def _model_checks(choice: PlannerChoice, state: "ServerState", must_see: bool) -> Iterator[Check]:
     if state.facts is None:
         why = state.fault.text if state.fault is not None else ""
         yield Check("model", "missing", f"{choice.model}: {why}", f"ollama pull {choice.model}")
         return
     can = ", ".join(sorted(state.facts.capabilities)) or "nothing that it says"
     what = "a stand-in without a model that claims" if state.facts.stand_in else "is there; it has"
+    if must_see and "vision" not in state.facts.capabilities:
+        text = f"{choice.model} cannot look at pictures: it has {can}"
+        yield Check("model", "missing", text, "set planner.vision to a model with the capability `vision`")
+        return
     yield Check("model", "ok", f"{choice.model}: {what} {can}")
     yield _context(choice, state.context, state.facts.longest_context)
 

@@ -11,6 +11,7 @@ import threading
 import time
 from contextlib import aclosing
 from dataclasses import dataclass
+from functools import cache
 from hashlib import sha256
 from typing import Any
 
@@ -47,11 +48,10 @@ class Facts:
 
 
 class OllamaModel:
-    """See planners.asking.Model. One question at a time, whoever asks."""
+    """See planners.asking.Model. A server is asked one question at a time, whoever asks, whatever the model."""
 
     def __init__(self, choice: PlannerChoice) -> None:
         self._choice, self._name = choice, choice.model
-        self._lock = threading.Lock()
         self._loading: threading.Thread | None = None
         self._loading_since_s = 0.0
         self._context = choice.num_ctx
@@ -71,7 +71,7 @@ class OllamaModel:
         return self._loading is None or not self._loading.is_alive()
 
     def ask(self, question: Question) -> Answer:
-        with self._lock:
+        with turn(address(self._choice.host)):
             return self._ask(question)
 
     def _ask(self, question: Question) -> Answer:
@@ -172,6 +172,12 @@ class OllamaModel:
                 self._context,
                 choice.num_ctx,
             )
+
+
+@cache
+def turn(host: str) -> threading.Lock:
+    """Whose turn it is at a server: models that answer at the same time are slower than one after the other."""
+    return threading.Lock()
 
 
 def address(host: str) -> str:

@@ -1,19 +1,18 @@
 """The row of a planner that has a model: a budget for each task, a record of every call, and `scripted` where it fails."""
 
-import importlib.util
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from planners.asking import Model, ModelFailed
-from planners.kept_replies import KeptReplies
 from planners.meter import Meter
+from planners.opening import model_of
 from planners.retries import RetryingModel
 from planners.scripted.planner import NAME as SCRIPTED
 from planners.scripted.planner import ScriptedPlanner
 from wire.messages.plan import ModelCall, Plan, PlanReply, PlanRequest, Refusal
-from wire.site import Site, SiteError, state_dir
+from wire.site import Site
 
 if TYPE_CHECKING:
     from planners.planner import Planner
@@ -115,25 +114,3 @@ def _with_verdicts(calls: tuple[ModelCall, ...], judged: tuple[ModelCall, ...]) 
     bad = [call.model_copy(update={"outcome": "ok"}) for call in judged if call.outcome == "invalid"]
     told = [call.model_copy(update={"outcome": "invalid"}) if call in bad else call for call in calls]
     return tuple(told)
-
-
-def missing_client(site: Site) -> str:
-    """A sentence where the client of model servers is not installed; else nothing."""
-    if importlib.util.find_spec("ollama") is not None:
-        return ""
-    return f"{site.planner.name} asks a model: install the extra `model`, or choose {SCRIPTED}"
-
-
-def model_of(site: Site) -> Model:
-    """The model of the site file, being loaded while the process comes up. Raises SiteError."""
-    choice = site.planner
-    folder = state_dir(site) / "replies"
-    if choice.replies == "only":
-        return KeptReplies(folder, choice.model, choice.num_ctx, None)
-    if fault := missing_client(site):
-        raise SiteError(f"planner.name: {fault}")
-    from planners.model import OllamaModel  # only a planner that has a model needs the client
-
-    model = OllamaModel(choice)
-    model.start()
-    return model if choice.replies == "off" else KeptReplies(folder, choice.model, choice.num_ctx, model)

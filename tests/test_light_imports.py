@@ -55,13 +55,15 @@ import os, sys
 from pathlib import Path
 os.environ["R2X_STATE"] = r"{tmp_path}"
 from planners.core import build
-from planners.modelled import modelled, model_of
+from planners.modelled import modelled
+from planners.opening import model_of, vision_of
 from wire.planner_table import PlannerChoice
 from wire.site import load_site
 site = load_site(Path("deploy/sites/home.toml"))
 build(site, "planner", "scripted")
 offline = site.model_copy(update={{"planner": PlannerChoice(name="goals", replies="only")}})
 model_of(offline)
+assert vision_of(site) is None
 print(*(name in sys.modules for name in ("ollama", "httpx")))
 model_of(site)
 print(*(name in sys.modules for name in ("ollama", "httpx")))

@@ -43,6 +43,8 @@ class PlannerChoice(Message):
 
     name: Word = "scripted"
     model: ModelName = "qwen3:8b"
+    vision: ModelName | Literal[""] = ""
+    """The model that looks at pictures for cameras, such as qwen2.5vl:7b; empty for none. It may be the same one."""
     host: Host = ""
     """The model server; empty for the one that the environment names (`OLLAMA_HOST`), else this machine's."""
     num_ctx: int = Field(default=8192, ge=512, le=1_048_576)
@@ -62,4 +64,8 @@ class PlannerChoice(Message):
     @property
     def longest_s(self) -> float:
         """How long a plan may take by the wall clock: the budget may run out in the middle of a call."""
-        return MODELLESS_S if self.name == "scripted" else self.budget.seconds + self.timeout_s + _ROUND_S + MODELLESS_S
+        if self.name == "scripted":
+            return MODELLESS_S
+        asking_s = self.budget.seconds + self.timeout_s
+        # Every question may have to wait until a picture has been looked at.
+        return (2.0 if self.vision else 1.0) * asking_s + _ROUND_S + MODELLESS_S

@@ -73,12 +73,21 @@ def test_a_context_that_the_model_cannot_have() -> None:
     assert (row.state, row.remedy) == ("missing", "set planner.num_ctx = 40960")
 
 
+def test_a_model_for_pictures_must_see() -> None:
+    with stand_in(table={"name": "scripted", "vision": "qwen2.5vl:7b"}) as (_, choice):
+        rows = found(choice)
+        assert rows["planner"].text == "scripted, with qwen2.5vl:7b for pictures"
+        assert rows["model"].text.endswith("claims completion, vision")
+        blind = found(choice.model_copy(update={"vision": "llama3.1:8b"}))["model"]
+    assert (blind.state, blind.remedy) == ("missing", "set planner.vision to a model with the capability `vision`")
+
+
 def test_a_server_that_hangs_or_is_none() -> None:
     with socket.socket() as silent:
         silent.bind(("127.0.0.1", 0))
         silent.listen()
         host = f"http://127.0.0.1:{silent.getsockname()[1]}"
-        rows = {c.name: c for c in doctor.server_checks(named(host=host))}
+        rows = {c.name: c for c in doctor.server_checks(named(host=host), ["qwen3:8b"])}
     assert rows["server"].state == "missing"
     assert "no whole answer within 5 s" in rows["server"].text
 

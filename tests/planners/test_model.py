@@ -230,7 +230,7 @@ def test_a_server_that_gives_less_context_is_found_out(caplog: pytest.LogCapture
 
 def test_one_question_at_a_time() -> None:
     with stand_in(token_s=0.05) as (state, choice):
-        model, answers = OllamaModel(choice), []
+        models, answers = [OllamaModel(choice) for _ in range(2)], []
         busy: list[int] = []
         original = state.brain.reply
 
@@ -239,7 +239,8 @@ def test_one_question_at_a_time() -> None:
             return original(request)
 
         state.brain.reply = watch
-        threads = [threading.Thread(target=lambda: answers.append(model.ask(QUESTION))) for _ in range(3)]
+        asks = [models[0].ask, models[1].ask, models[0].ask]
+        threads = [threading.Thread(target=lambda ask=ask: answers.append(ask(QUESTION))) for ask in asks]
         for thread in threads:
             thread.start()
         for thread in threads:

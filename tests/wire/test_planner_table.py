@@ -1,10 +1,14 @@
 """The table `[planner]`: what may stand in it, and what is said of what may not."""
 
+import re
 import tomllib
+from typing import get_args
 
 import pytest
 
-from wire.planner_table import PlannerChoice
+from tests.pages import ROOT, blocks
+from wire.messages.plan import CallOutcome
+from wire.planner_table import Budget, PlannerChoice
 from wire.site import Site, SiteError, parse_site
 
 SITE = """
@@ -40,6 +44,19 @@ def test_everything_that_can_be_said() -> None:
     ).planner
     assert planner.budget.calls == 3
     assert planner.longest_s == 45.0 + 30.0 + 30.0 + 60.0
+
+
+def test_the_page_shows_a_table_that_can_be_read() -> None:
+    (table,) = blocks("language-models.md", "toml")
+    said = tomllib.loads(table)["planner"]
+    assert PlannerChoice.model_validate(said).name == "goals"
+    assert {*said, "budget"} == set(PlannerChoice.model_fields)
+    assert set(said["budget"]) == set(Budget.model_fields)
+
+
+def test_the_page_names_every_outcome() -> None:
+    rows = re.findall(r"^\| (\w+) \|", (ROOT / "docs" / "language-models.md").read_text(), re.M)
+    assert set(rows) - {"outcome"} == set(get_args(CallOutcome)) - {"ok"}
 
 
 @pytest.mark.parametrize("host", ["", "box", "box:11434", "127.0.0.1:11434", "[::1]:11434", "https://box.lan/ollama"])

@@ -1,5 +1,6 @@
 """What planners know of language models: a question, its answer, and the ways in which there is none."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -41,10 +42,10 @@ class ModelFailed(Exception):
     use to it: `ModelFailed(reason, rejected(answer))`.
     """
 
-    def __init__(self, reason: str, call: ModelCall, again: bool = True) -> None:
-        """`again`: the same question may get an answer another time."""
+    def __init__(self, reason: str, call: ModelCall, again: bool = True, rejects: Sequence[ModelCall] = ()) -> None:
+        """`again`: the same question may get an answer another time. `rejects`: other answers that were of no use."""
         super().__init__(reason)
-        self.call, self.again = call, again
+        self.call, self.again, self.rejects = call, again, tuple(rejects)
 
 
 def rejected(answer: Answer) -> ModelCall:

@@ -41,7 +41,7 @@ class Modelled:
                 reply = self._planner.make_plan(request)
                 judged = reply.calls
             except ModelFailed as failure:
-                judged, why = (failure.call,), str(failure)
+                judged, why = (failure.call, *failure.rejects), str(failure)
                 self._give_up(request.task, why)
         note = f"{SCRIPTED} instead of {self._choice.name}: {why}" if why and self._choice.fallback else ""
         if why:

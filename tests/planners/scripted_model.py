@@ -51,4 +51,4 @@ class VisitPlanner:
                 reply = self._tasks.plan(request, [goal])
                 return reply.model_copy(update={"calls": tuple(useless)})
             useless.append(rejected(answer))
-        raise ModelFailed("written: it names no room", useless[-1])
+        raise ModelFailed("written: it names no room", useless[-1], rejects=useless)

@@ -38,7 +38,7 @@ WORST = {
     "repeat": ["looping"] * 2,
     "empty": ["empty"] * 2,
     "length": ["truncated"],
-    "off_schema": ["ok", "ok", "invalid"],
+    "off_schema": ["invalid"] * 3,
 }
 
 

@@ -32,9 +32,9 @@ VISION = os.environ.get("R2X_OLLAMA_VISION", "qwen2.5vl:7b")
 PLANNER = os.environ.get("R2X_OLLAMA_PLANNER", "goals")
 NUM_CTX = 4096
 INSTRUCTIONS = (
-    "deal with whatever would go off if it stays out overnight",
-    "it is far too bright in here for a film",
-    "somebody left things running that nobody watches",
+    "the fruit belongs in the cold",
+    "make sure the milk does not go off",
+    "get everything edible off the beds and into the kitchen",
 )
 """Out of the grammar's reach, so that the model has to read them."""
 

@@ -43,7 +43,7 @@ up *args: install
 down *args: install
     exec {{ python }} -m console down "$@"
 
-# what the site needs of this machine and has not: doctor [SITE] (--json)
+# what the site needs of this machine and has not: doctor [SITE] (--load, --json)
 [group('mesh')]
 doctor *args: install
     exec {{ python }} -m console doctor "$@"

@@ -34,14 +34,14 @@ class Check:
     """A command, or what to change."""
 
 
-def checks(site: Site) -> Iterator[Check]:
-    """Everything for a site; each check is made when it is asked for."""
+def checks(site: Site, load: bool = False) -> Iterator[Check]:
+    """Everything for a site; each check is made when it is asked for. `load`: have its language models loaded."""
     yield _python()
     yield _modules(site)
     yield _ports(site)
     yield _opengl(site)
     yield _display()
-    yield from _planner(site)
+    yield from _planner(site, load)
 
 
 def _python() -> Check:
@@ -91,7 +91,7 @@ def _display() -> Check:
     return Check("display", "without", "none: `justw view` shows the mesh in a browser")
 
 
-def _planner(site: Site) -> Iterator[Check]:
+def _planner(site: Site, load: bool) -> Iterator[Check]:
     from planners.modelled import has_model
     from planners.opening import missing_client
     from planners.planner import PLANNERS  # the grammar comes with it, which no other command needs
@@ -110,10 +110,10 @@ def _planner(site: Site) -> Iterator[Check]:
         yield Check("planner", "missing", fault)
     else:
         yield Check("planner", "ok", f"{choice.name}{f', with {choice.vision} for pictures' if choice.vision else ''}")
-        yield from server_checks(choice, asked)
+        yield from server_checks(choice, asked, load)
 
 
-def server_checks(choice: PlannerChoice, models: list[str]) -> Iterator[Check]:
+def server_checks(choice: PlannerChoice, models: list[str], load: bool) -> Iterator[Check]:
     """The model server: does it run, has it the models, what can they do, and how long is their context really."""
     from planners.model_inspection import inspect
 
@@ -124,13 +124,15 @@ def server_checks(choice: PlannerChoice, models: list[str]) -> Iterator[Check]:
     yield Check("server", "ok", f"answers at {state.host}, with {', '.join(state.pulled) or 'no model yet'}")
     for name in models:
         one = choice.model_copy(update={"model": name})
-        yield from _model_checks(one, inspect(one), must_see=name == choice.vision)
+        yield from _model_checks(one, inspect(one, load), load, must_see=name == choice.vision)
 
 
-def _model_checks(choice: PlannerChoice, state: "ServerState", must_see: bool) -> Iterator[Check]:
+def _model_checks(choice: PlannerChoice, state: "ServerState", load: bool, must_see: bool) -> Iterator[Check]:
     if state.facts is None:
         why = state.fault.text if state.fault is not None else ""
-        yield Check("model", "missing", f"{choice.model}: {why}", f"ollama pull {choice.model}")
+        pulled = {choice.model, f"{choice.model}:latest"} & set(state.pulled)
+        remedy = "the server's own log tells more" if pulled else f"ollama pull {choice.model}"
+        yield Check("model", "missing", f"{choice.model}: {why}", remedy)
         return
     can = ", ".join(sorted(state.facts.capabilities)) or "nothing that it says"
     what = "a stand-in without a model that claims" if state.facts.stand_in else "is there; it has"
@@ -139,7 +141,7 @@ def _model_checks(choice: PlannerChoice, state: "ServerState", must_see: bool) -
         yield Check("model", "missing", text, "set planner.vision to a model with the capability `vision`")
         return
     yield Check("model", "ok", f"{choice.model}: {what} {can}")
-    yield _context(choice, state.context, state.facts.longest_context)
+    yield _context(choice, state.context, state.facts.longest_context, load)
 
 
 def _serve(host: str) -> str:
@@ -149,13 +151,19 @@ def _serve(host: str) -> str:
     return "ollama serve" if host.endswith(":11434") else f"OLLAMA_HOST={host} ollama serve"
 
 
-def _context(choice: PlannerChoice, context: int | None, longest: int | None) -> Check:
+def _context(choice: PlannerChoice, context: int | None, longest: int | None, loaded: bool) -> Check:
+    """A shorter context than was asked for cuts prompts without a word."""
     wanted = choice.num_ctx
     if longest is not None and longest < wanted:
         text = f"the model has {longest} tokens at most, planner.num_ctx asks for {wanted}"
         return Check("context", "missing", text, f"set planner.num_ctx = {longest}")
     if context is None:
         return Check("context", "ok", f"{wanted} tokens will be asked for; the model is loaded when the planner starts")
+    if context < wanted and not loaded:
+        text = (
+            f"{context} tokens are loaded, planner.num_ctx asks for {wanted}: another program may have asked for fewer"
+        )
+        return Check("context", "without", text, "`justw doctor --load` asks the server for all of them")
     if context < wanted:
         text = f"the server gave {context} tokens, planner.num_ctx asks for {wanted}: longer prompts are cut"
         return Check("context", "missing", text, f"free memory for it, or set planner.num_ctx = {context}")

@@ -21,6 +21,9 @@ def register(app: typer.Typer) -> None:
 
 def doctor(
     site: Annotated[str | None, typer.Argument(help="a site file, or a name that `sites` lists")] = None,
+    load: Annotated[
+        bool, typer.Option("--load", help="have language models loaded, to see what they really get")
+    ] = False,
     json_: Json = False,
 ) -> None:
     """Look for everything that the site needs of this machine; says which command brings what is missing."""
@@ -28,7 +31,7 @@ def doctor(
         found = _site(site)
     except SiteError as error:
         fail(str(error), json_, 2)
-    rows = list(checks(found))
+    rows = list(checks(found, load))
     emit(doctor_document(found, rows), doctor_text(found, rows), json_)
     if any(row.state == "missing" for row in rows):
         raise typer.Exit(1)

@@ -1,6 +1,7 @@
 """Opens the language models of a site: that of the planner, and that which looks at pictures."""
 
 import importlib.util
+import logging
 
 from planners.asking import Model
 from planners.kept_replies import KeptReplies
@@ -33,6 +34,7 @@ def _open(site: Site, name: str) -> Model:
         raise SiteError(f"planner.model: {fault}")
     from planners.model import OllamaModel  # only a process that asks a model needs the client
 
+    logging.getLogger("httpx").setLevel(logging.WARNING)  # it would add a line for every request
     model = OllamaModel(choice)
     model.start()
     return model if choice.replies == "off" else KeptReplies(folder, name, choice.num_ctx, model)

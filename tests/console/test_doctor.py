@@ -25,8 +25,8 @@ def visits(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(PLANNERS, "visits", modelled(VisitPlanner))
 
 
-def found(choice: PlannerChoice) -> dict[str, Check]:
-    return {check.name: check for check in checks(site().model_copy(update={"planner": choice}))}
+def found(choice: PlannerChoice, load: bool = False) -> dict[str, Check]:
+    return {check.name: check for check in checks(site().model_copy(update={"planner": choice}), load)}
 
 
 def named(**table: Any) -> PlannerChoice:
@@ -61,7 +61,8 @@ def test_a_model_that_is_there_and_the_context_that_it_really_has() -> None:
         model = OllamaModel(choice)
         model.start()
         assert model.loading_is_over(20.0)
-        rows = found(choice)
+        assert found(choice)["context"].state == "without", "another program may have loaded it"
+        rows = found(choice, load=True)
     assert rows["context"].state == "missing"
     assert "the server gave 2048 tokens, planner.num_ctx asks for 8192" in rows["context"].text
     assert rows["context"].remedy.endswith("planner.num_ctx = 2048")
@@ -87,7 +88,7 @@ def test_a_server_that_hangs_or_is_none() -> None:
         silent.bind(("127.0.0.1", 0))
         silent.listen()
         host = f"http://127.0.0.1:{silent.getsockname()[1]}"
-        rows = {c.name: c for c in doctor.server_checks(named(host=host), ["qwen3:8b"])}
+        rows = {c.name: c for c in doctor.server_checks(named(host=host), ["qwen3:8b"], load=False)}
     assert rows["server"].state == "missing"
     assert "no whole answer within 5 s" in rows["server"].text
 

@@ -43,6 +43,11 @@ up *args: install
 down *args: install
     exec {{ python }} -m console down "$@"
 
+# what the site needs of this machine and has not: doctor [SITE] (--load, --json)
+[group('mesh')]
+doctor *args: install
+    exec {{ python }} -m console doctor "$@"
+
 # which processes run, and are they well (--json)
 [group('mesh')]
 status *args: install
@@ -98,6 +103,11 @@ view *args: install
 record *args: install
     exec {{ python }} -m console record "$@"
 
+# what a task has cost the language model, call by call: tokens [TASK] (--json)
+[group('watch')]
+tokens *args: install
+    exec {{ python }} -m console tokens "$@"
+
 # a simulated drone for any MAVLink client: sitl --firmware ardupilot|px4 (--vehicles N, --gps none, --scene home:7)
 [group('fly')]
 sitl *args: install
@@ -127,6 +137,16 @@ measure-detector *args: install
 [group('measure')]
 demo-seeds *args: install
     exec {{ python }} -m console demo-seeds "$@"
+
+# a stand-in for Ollama, without a model, for rehearsals: ollama-double --port 11434 (--scenario busy,ok, --dial NAME=RATE)
+[group('develop')]
+ollama-double *args: install
+    exec {{ python }} -m tests.ollama_double "$@"
+
+# what R2X relies on, asked of your own Ollama server: R2X_OLLAMA=1 ./justw test-ollama
+[group('develop')]
+test-ollama *args: install
+    {{ python }} -m pytest -s -v tests/planners/test_ollama_contract.py "$@"
 
 # format the tree and rewrite the generated pages
 [group('develop')]

@@ -5,7 +5,7 @@ from typing import cast
 
 import typer
 
-from console import mesh_commands, operate_commands, watch_commands
+from console import cost_commands, doctor_commands, mesh_commands, operate_commands, watch_commands
 from console.output import say_failure
 
 _UsageError = cast("type[typer.BadParameter]", typer.BadParameter.__base__)
@@ -14,6 +14,8 @@ app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, help="Th
 mesh_commands.register(app)
 operate_commands.register(app)
 watch_commands.register(app)
+cost_commands.register(app)
+doctor_commands.register(app)
 
 
 def run(words: Sequence[str]) -> int:

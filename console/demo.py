@@ -13,6 +13,7 @@ from console.output import terminal
 from console.places import flying, free_port, generate_home
 from console.task import RUNNING, run_task
 from deploy.launch import ProcessInfo
+from wire.costs import STAND_IN
 from wire.messages.command import RobotReport
 from wire.messages.goal import Goal, Selector
 from wire.messages.operator import TaskState
@@ -120,6 +121,7 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
             for g in run.judged.goals
         ],
         "planner": task.planner,
+        "planner_note": task.planner_note,
         "plan_nodes": task.nodes_total,
         "plan_nodes_done": task.nodes_done,
         "replans": task.replans,
@@ -127,6 +129,7 @@ def _summary(seed: int, run: Run) -> dict[str, Any]:
         "action_steps": task.action_steps,
         "path_m": round(task.path_m, 2),
         "tokens": task.prompt_tokens + task.completion_tokens,
+        "stand_in": task.stand_in,
         "collisions": run.judged.collisions,
         "sim_s": round(run.sim_s, 2),
         "wall_s": round(run.wall_s, 2),
@@ -159,11 +162,12 @@ def summary_text(summary: dict[str, Any], out: Path) -> str:
         f"  {'yes' if g['true'] else 'NO':<4}{': '.join(filter(None, (g['goal'], g['note'])))}"
         for g in summary["goals"]
     )
+    tokens = f"{summary['tokens']} tokens{' ' + STAND_IN if summary['stand_in'] else ''}"
     verdict = "succeeded" if summary["success"] else f"FAILED ({summary['reason'] or summary['task_status']})"
     return (
         f"\n{summary['instruction']}\n{verdict}, judged from the world as it is\n{goals}\n"
         f"  planner {summary['planner']}, {summary['plan_nodes']} plan nodes, {summary['replans']} replans, "
-        f"{summary['action_steps']} action steps, {summary['path_m']} m, {summary['tokens']} tokens\n"
+        f"{summary['action_steps']} action steps, {summary['path_m']} m, {tokens}\n"
         f"  {summary['sim_s']} simulated s in {summary['wall_s']} s ({summary['times_real_time']} x real time)\n"
         f"  {out}/summary.json  {out}/map.png  {out}/run.rrd (open with: .venv/bin/rerun {out}/run.rrd)"
     )

@@ -39,10 +39,14 @@ def prepare(name_or_path: str | None, seed: int, port: int | None, drones: int) 
     """
     if name_or_path is None:
         return _home_of(seed, port, drones)
-    path = Path(name_or_path)
-    named = SITES / f"{name_or_path}.toml"
-    found = named if not path.exists() and named.exists() else path
+    found = named_site(name_or_path)
     return found if port is None else _on_port(found, port)
+
+
+def named_site(name_or_path: str) -> Path:
+    """The site file of that name, a path or what `sites` lists."""
+    path, named = Path(name_or_path), SITES / f"{name_or_path}.toml"
+    return named if not path.exists() and named.exists() else path
 
 
 def _home_of(seed: int, port: int | None, drones: int) -> Path:

@@ -5,6 +5,7 @@ from typing import Any
 
 from console.client import Client
 from console.output import checked, terminal
+from wire.costs import cost_text, planner_text
 from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState
 
 HUB_BACK_TRIES = 30
@@ -65,16 +66,17 @@ def task_document(state: TaskState) -> dict[str, Any]:
 
 
 def task_text(state: TaskState) -> str:
+    cost = cost_text(state)
     if state.refusal is not None:
         named = not state.refusal.part or f"'{state.refusal.part}'" in state.refusal.reason
         part = "" if named else f" ('{state.refusal.part}')"
-        return f"not done: {state.refusal.reason}{part}"
+        return "\n".join(filter(None, (f"not done: {state.refusal.reason}{part}", state.planner_note, cost)))
     if state.status in RUNNING:
         goes_on = f"{state.task} goes on; `justw cancel {state.task}` ends it"
         return f"{state.status}: {state.reason or state.instruction}\n{goes_on}"
     goals = "\n".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}" for g in state.goals)
     return (
         f"{state.status}: {state.reason or state.instruction}\n{goals}\n"
-        f"planner {state.planner}, {state.nodes_done} of {state.nodes_total} steps, {state.replans} replans, "
-        f"{state.action_steps} action steps, {state.path_m:.1f} m"
+        f"{planner_text(state)}, {state.nodes_done} of {state.nodes_total} steps, {state.replans} replans, "
+        f"{state.action_steps} action steps, {state.path_m:.1f} m{f', {cost}' if cost else ''}"
     )

@@ -1,4 +1,4 @@
-"""demo, demo-seeds, view, record, perf: what is looked at rather than commanded."""
+"""demo, demo-seeds, view, record: what is looked at rather than commanded."""
 
 import json
 import os

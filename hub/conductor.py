@@ -69,13 +69,17 @@ class Conductor:
     def planned(self, reply: PlanReply | None, now_s: float, error: str = "") -> None:
         """The planner's answer, or None when there was none in time."""
         task = self.task
+        if task is not None and reply is not None and reply.task == task.id:
+            self._ledger.spend(task, reply, now_s)
         if task is None or task.status != "planning" or task.halting is not None:
             return
         if not self._planning.answers(task, reply):
             return
         if reply is None:
             self._failed(task, f"the planner gave no answer{': ' + error if error else ''}", now_s)
-        elif reply.refusal is not None:
+            return
+        task.hear_note(reply.note, now_s)
+        if reply.refusal is not None:
             task.refusal = reply.refusal
             self._end(task, "refused" if task.run is None else "failed", reply.refusal.reason, now_s)
         elif reply.plan is not None:
@@ -85,14 +89,15 @@ class Conductor:
 
     def _adopt(self, task: Task, plan: Plan, now_s: float) -> None:
         task.planner = plan.planner
-        task.tokens = (task.tokens[0] + plan.prompt_tokens, task.tokens[1] + plan.completion_tokens)
         for line in self._world.take_for(plan.taken_for):
             task.say(now_s, line)
         found = self._planning.faults(plan, now_s)
         if found:
             task.failures += found
+            task.rejected += 1
             self._failed(task, f"the plan cannot be carried out: {found[0]}", now_s)
             return
+        task.rejected = 0
         if task.run is not None:
             task.done_before += task.run.done_count()
         task.goals, task.run = plan.goals, PlanRun(plan, {thing.id: thing.type for thing in self._world.things})

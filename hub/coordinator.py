@@ -48,7 +48,8 @@ class Coordinator:
     def start(self, node: Node) -> None:
         self._node = node
         epoch = self._journal.next_epoch()
-        self._voice = voice = Voice(node, epoch)
+        planners = frozenset(self._planners)
+        self._voice = voice = Voice(node, epoch, planners, self._site.planner.longest_s)
         self.world.things.reseed(epoch)
         ledger = Ledger(self.world, self._journal, voice)
         self._conductor = conductor = Conductor(
@@ -63,7 +64,7 @@ class Coordinator:
         voice.on_card = self._card
         for topic in ("observation", "device_report", "robot_report", "result"):
             node.subscribe(topic)
-        for service in ("snapshot", "task", "task_query", "control", "why"):
+        for service in ("snapshot", "task", "task_query", "calls", "control", "why"):
             node.serve(service)
         node.watch_presence()
 
@@ -142,11 +143,11 @@ class Coordinator:
             self._conductor.result(message, now_s)
 
     def _meet(self, event: Presence, now_s: float) -> None:
-        if not event.alive:
+        if event.process in self._planners:
+            self._voice.planner_presence(event.process, event.alive)
+        elif not event.alive:
             self.world.fleet.gone(event.process)
             self._conductor.lost(event.process, now_s)
-        elif event.process in self._planners:
-            self._voice.planner_came()
         elif event.process in self._devices or (event.process not in self._others and event.process != self._id):
             self._asked_card_s[event.process] = now_s
             self._voice.ask_card(event.process)

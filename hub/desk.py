@@ -2,6 +2,7 @@
 
 import json
 
+from hub.calls import calls_of
 from hub.conductor import Conductor
 from hub.journal import Journal
 from hub.ledger import log
@@ -10,7 +11,15 @@ from hub.voice import Voice
 from hub.why import why
 from hub.world import World
 from wire.bus import Request
-from wire.messages.operator import ControlReply, ControlRequest, TaskQuery, TaskRequest, TaskState, WhyRequest
+from wire.messages.operator import (
+    CallsRequest,
+    ControlReply,
+    ControlRequest,
+    TaskQuery,
+    TaskRequest,
+    TaskState,
+    WhyRequest,
+)
 from wire.messages.world import SnapshotRequest
 
 _CLOCK_S = 1.0
@@ -56,6 +65,8 @@ class Desk:
             request.reply(self._take(message, now_s))
         elif isinstance(message, TaskQuery):
             request.reply(self._state(message, now_s))
+        elif isinstance(message, CallsRequest):
+            request.reply(calls_of(message.task, list(self._tasks), self._journal))
         elif isinstance(message, ControlRequest):
             request.reply(self._control(message, now_s))
         elif isinstance(message, WhyRequest):

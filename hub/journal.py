@@ -1,6 +1,7 @@
 """The durable log: every decision before it takes effect, and what is needed to go on after a kill.
 
-`log` only grows and holds no wall-clock time: two equal runs write equal bytes. `state` holds the newest of each key.
+`log` only grows and holds no wall-clock time but how long models took: two equal runs write equal bytes. `state` holds
+the newest of each key.
 """
 
 import sqlite3
@@ -49,6 +50,11 @@ class Journal:
         return [
             (float(s), str(k), str(b)) for s, k, b in self._db.execute("SELECT stamp_s, kind, body FROM log ORDER BY n")
         ]
+
+    def bodies(self, kind: str) -> list[tuple[float, str]]:
+        """The decisions of one kind: (stamp_s, body)."""
+        rows = self._db.execute("SELECT stamp_s, body FROM log WHERE kind = ? ORDER BY n", (kind,))
+        return [(float(stamp_s), str(body)) for stamp_s, body in rows]
 
     def last_s(self) -> float:
         """Time of the last decision; 0 when there is none."""

@@ -6,12 +6,16 @@ from hub.voice import Voice
 from hub.world import World
 from wire.messages.plan import Plan, PlanReply, PlanRequest
 
+_MISSING_S = 30.0
+"""A planner that is restarted is waited for so long before the question is asked in vain."""
+
 
 class Planning:
     """At most one question is open."""
 
     def __init__(self, world: World, voice: Voice, epoch: int) -> None:
         self._world, self._voice, self._epoch = world, voice, epoch
+        self._missing_since_s: float | None = None
         self._asked = False
         self._due_s = self._begun_s = 0.0
 
@@ -29,9 +33,14 @@ class Planning:
         self._asked = False
 
     def ask_if_due(self, task: Task, now_s: float) -> None:
-        """Ask once, when every robot has announced itself."""
+        """Ask once, when every robot has announced itself and there is somebody to ask."""
         if self._asked or now_s < self._due_s or not self._world.fleet.met(now_s - self._begun_s):
             return
+        if self._voice.planner_is_missing():
+            self._missing_since_s = now_s if self._missing_since_s is None else self._missing_since_s
+            if now_s - self._missing_since_s < _MISSING_S:
+                return
+        self._missing_since_s = None
         self._asked = True
         task.able = frozenset(self._world.fleet.able())
         task.rename(self._world.things)
@@ -42,6 +51,7 @@ class Planning:
             goals=task.goals or None,
             world=self._world.snapshot(now_s),
             skills=self._world.fleet.skills(),
+            rejected=task.rejected,
             failures=tuple(text[:2000] for text in task.failures[-8:]),
             now_s=now_s,
         )

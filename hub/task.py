@@ -2,6 +2,7 @@
 
 import json
 from collections import deque
+from collections.abc import Sequence
 from typing import Literal
 
 from hub.memory import read_goals, read_run, write_goals, write_run
@@ -12,7 +13,7 @@ from hub.world import World
 from wire.goals import holds
 from wire.messages.goal import Goal, Selector
 from wire.messages.operator import GoalState, TaskState, TaskStatus
-from wire.messages.plan import Refusal
+from wire.messages.plan import ModelCall, Plan, PlanReply, Refusal
 from wire.messages.world import WorldState
 
 _LINES = 12
@@ -45,6 +46,11 @@ class Task:
         self.counter = 0
         """Number of the last goal given to a robot."""
         self.tokens = (0, 0)
+        self.model_calls = 0
+        self.stand_in = False
+        self.planner_note = ""
+        self.rejected = 0
+        """Plans in a row that the checks have refused."""
         self.start_steps: dict[str, tuple[float, int]] = {}
         """Odometer and step count of every robot when the task began."""
         self.spent = (0.0, 0)
@@ -61,6 +67,22 @@ class Task:
         self.log.append(f"{max(now_s - self.started_s, 0.0):.1f} s: {text}"[:300])
         self.unsaid.append(text)
         self.changed_s = now_s
+
+    def hear_note(self, note: str, now_s: float) -> None:
+        """What the planner has to say of itself; told once."""
+        if note and note != self.planner_note:
+            self.say(now_s, note)
+        self.planner_note = note
+
+    def spend(self, reply: PlanReply) -> None:
+        """Count what a reply has cost, whatever became of it. A planner without records has its sums in the plan."""
+        spent: Sequence[ModelCall | Plan] = reply.calls or ([reply.plan] if reply.plan is not None else [])
+        self.tokens = (
+            self.tokens[0] + sum(each.prompt_tokens for each in spent),
+            self.tokens[1] + sum(each.completion_tokens for each in spent),
+        )
+        self.model_calls += len(reply.calls)
+        self.stand_in |= any(call.stand_in for call in reply.calls)
 
     def measure(self, world: World) -> None:
         """Metres walked and steps made by the fleet since the task began."""
@@ -98,6 +120,7 @@ class Task:
             stamp_s=now_s,
             started_s=self.started_s,
             planner=self.planner,
+            planner_note=self.planner_note,
             goals=tuple(
                 GoalState(goal=goal, holds=i < len(self.holding) and self.holding[i], note=goal.text)
                 for i, goal in enumerate(self.goals)
@@ -112,6 +135,8 @@ class Task:
             path_m=round(self.spent[0], 3),
             prompt_tokens=self.tokens[0],
             completion_tokens=self.tokens[1],
+            model_calls=self.model_calls,
+            stand_in=self.stand_in,
             log=tuple(self.log),
         )
 
@@ -135,6 +160,10 @@ class Task:
                 "done_before": self.done_before,
                 "counter": self.counter,
                 "tokens": self.tokens,
+                "model_calls": self.model_calls,
+                "stand_in": self.stand_in,
+                "planner_note": self.planner_note,
+                "rejected": self.rejected,
                 "start_steps": self.start_steps,
                 "spent": self.spent,
                 "holding": self.holding,
@@ -166,6 +195,8 @@ def read_task(text: str) -> Task:
     task.failures, task.fails, task.replans = data["failures"], data["fails"], data["replans"]
     task.done_before, task.counter = data["done_before"], data["counter"]
     task.tokens = (data["tokens"][0], data["tokens"][1])
+    task.model_calls, task.stand_in = data.get("model_calls", 0), data.get("stand_in", False)
+    task.planner_note, task.rejected = data.get("planner_note", ""), data.get("rejected", 0)
     task.start_steps = {id: (m, n) for id, (m, n) in data["start_steps"].items()}
     task.spent = (data["spent"][0], data["spent"][1])
     task.log.extend(data["log"])

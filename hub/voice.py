@@ -15,8 +15,10 @@ Answered = Callable[[Reply, float], None]
 class Voice:
     """Implements what the conductor needs over a node."""
 
-    def __init__(self, node: Node, epoch: int) -> None:
-        self._node, self._epoch = node, epoch
+    def __init__(self, node: Node, epoch: int, planners: frozenset[str] = frozenset(), plan_s: float = 60.0) -> None:
+        """`planners`: processes that make plans; `plan_s`: how long one may take."""
+        self._node, self._epoch, self._plan_s = node, epoch, plan_s
+        self._planners, self._planners_here = planners, set[str]()
         self._waiting: dict[int, Answered] = {}
         self._planning = 0
         """Number of the newest question to the planner."""
@@ -34,7 +36,7 @@ class Voice:
             handler(reply, now_s)
 
     def ask_plan(self, request: PlanRequest) -> None:
-        self._planning = number = self._node.ask("make_plan", request)
+        self._planning = number = self._node.ask("make_plan", request, timeout_s=self._plan_s)
 
         def heard(reply: Reply, now_s: float) -> None:
             if number != self._planning:
@@ -43,8 +45,13 @@ class Voice:
 
         self._waiting[number] = heard
 
-    def planner_came(self) -> None:
-        """A planner that has just come knows nothing of what was asked before: do not wait for its answer."""
+    def planner_is_missing(self) -> bool:
+        """There should be a planner, and there is none."""
+        return bool(self._planners) and not self._planners_here
+
+    def planner_presence(self, id: str, alive: bool) -> None:
+        """One that has gone will not answer, and one that has just come knows nothing of what was asked before it."""
+        (self._planners_here.add if alive else self._planners_here.discard)(id)
         if self._waiting.pop(self._planning, None) is not None:
             self.on_plan(None, "it went away before it answered")
 

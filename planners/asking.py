@@ -1,5 +1,6 @@
 """What planners know of language models: a question, its answer, and the ways in which there is none."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -22,6 +23,8 @@ class Question:
     max_tokens: int = 512
     temperature: float = 0.0
     seed: int = 0
+    think: bool = False
+    """Have a model that can do so think first, in words that are not part of the answer."""
 
 
 @dataclass(frozen=True)
@@ -33,11 +36,21 @@ class Answer:
 
 
 class ModelFailed(Exception):
-    """There is no answer: `call.outcome` is the kind of failure, the exception's text the sentence for people."""
+    """There is no answer: `call.outcome` is the kind of failure, the exception's text the sentence for people.
 
-    def __init__(self, reason: str, call: ModelCall) -> None:
+    A planner lets it pass (`planners.modelled` sees to what comes then), and raises one itself where answers are of no
+    use to it: `ModelFailed(reason, rejected(answer))`.
+    """
+
+    def __init__(self, reason: str, call: ModelCall, again: bool = True, rejects: Sequence[ModelCall] = ()) -> None:
+        """`again`: the same question may get an answer another time. `rejects`: other answers that were of no use."""
         super().__init__(reason)
-        self.call = call
+        self.call, self.again, self.rejects = call, again, tuple(rejects)
+
+
+def rejected(answer: Answer) -> ModelCall:
+    """The record of an answer that was not what was asked for. In `PlanReply.calls` it stands for the call's own."""
+    return answer.call.model_copy(update={"outcome": "invalid"})
 
 
 class Model(Protocol):

@@ -36,4 +36,5 @@ def build(site: Site, process_id: str, planner: str | None = None) -> PlannerCor
     name = planner or site.planner.name
     if name not in PLANNERS:
         raise SiteError(f"there is no planner {name!r}; planner.name in the site file can be {', '.join(PLANNERS)}")
-    return PlannerCore(PLANNERS[name](site))
+    chosen = site.planner.model_copy(update={"name": name})
+    return PlannerCore(PLANNERS[name](site.model_copy(update={"planner": chosen})))

@@ -1,5 +1,6 @@
 """No process imports what its role does not need: `sys.modules` of each, right after its imports."""
 
+import os
 import re
 import subprocess
 import sys
@@ -13,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 EXTRAS = PROJECT["project"]["optional-dependencies"]
 HEAVY = {"numpy", "cv2", "scipy", "pybullet", "moderngl", "rerun", "pyarrow", "torch", "onnx", "onnxruntime", "lark", "typer",
-         "rich", "supervisor", "matplotlib", "ollama", "mavsdk", "pymavlink"}  # fmt: skip
+         "rich", "supervisor", "matplotlib", "ollama", "httpx", "anyio", "mavsdk", "pymavlink"}  # fmt: skip
 MAY_IMPORT = {
     "wire.router": set(),
     "wire.recorder": set(),
@@ -46,6 +47,32 @@ def imports_heavy(module: str) -> set[str]:
 @pytest.mark.parametrize("module", sorted(MAY_IMPORT))
 def test_a_role_imports_only_what_it_needs(module: str) -> None:
     assert imports_heavy(module) <= MAY_IMPORT[module]
+
+
+def test_only_a_planner_that_has_a_model_imports_the_client_of_model_servers(tmp_path: Path) -> None:
+    code = f"""
+import os, sys
+from pathlib import Path
+os.environ["R2X_STATE"] = r"{tmp_path}"
+from planners.core import build
+from planners.modelled import modelled
+from planners.opening import model_of, vision_of
+from wire.planner_table import PlannerChoice
+from wire.site import load_site
+site = load_site(Path("deploy/sites/home.toml"))
+build(site, "planner", "scripted")
+offline = site.model_copy(update={{"planner": PlannerChoice(name="goals", replies="only")}})
+model_of(offline)
+assert vision_of(site) is None
+print(*(name in sys.modules for name in ("ollama", "httpx")))
+model_of(site)
+print(*(name in sys.modules for name in ("ollama", "httpx")))
+"""
+    environment = {**os.environ, "OLLAMA_HOST": "127.0.0.1:9"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60, env=environment
+    )
+    assert done.stdout == "False False\nTrue True\n", done.stderr
 
 
 def test_a_robot_without_vision_is_built_without_numpy(tmp_path: Path) -> None:

@@ -114,6 +114,8 @@ SERVICES: tuple[Service, ...] = (
             ("hub",), ("console",), "start a task"),
     Service("task_query", "hub/task/query", operator.TaskQuery, operator.TaskState, 2.0,
             ("hub",), ("console", "view"), "how a task stands"),
+    Service("calls", "hub/task/calls", operator.CallsRequest, operator.CallsReply, 2.0,
+            ("hub",), ("console", "view"), "every call of a model that was made for a task"),
     Service("control", "hub/control", operator.ControlRequest, operator.ControlReply, 2.0,
             ("hub",), ("console",), "stop, pause, resume, cancel"),
     Service("why", "hub/why", operator.WhyRequest, operator.WhyReply, 2.0,

@@ -9,6 +9,7 @@ from pydantic import Field, ValidationError
 
 from wire.faults import describe
 from wire.model import Id, Message, Vec2, Vec3, Word
+from wire.planner_table import PlannerChoice
 from wire.site_faults import site_faults
 
 UNDER_CEILING_M = 0.4
@@ -139,10 +140,6 @@ class Sim(Message):
     """Whose habits the autopilots of the drones in it have."""
     mavlink_out: tuple[Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+:\d{1,5}$")], ...] = ()
     """HOST:PORT of ground stations that are sent every drone's telemetry, such as 127.0.0.1:14550."""
-
-
-class PlannerChoice(Message):
-    name: Word = "scripted"
 
 
 class View(Message):

@@ -9,6 +9,7 @@ import rerun as rr
 from hub.view.blueprint import TIMELINE
 from hub.view.flying import draw_flight, draw_quadrotor, way_ahead
 from hub.view.house import draw_robot, place_camera, place_lens
+from wire.costs import cost_text, planner_text
 from wire.messages.command import RobotReport
 from wire.messages.driver import CameraFrame
 from wire.messages.observation import EventLog, ObservationBatch
@@ -231,10 +232,11 @@ class Drawing:
 
     def _draw_task(self, state: TaskState) -> None:
         goals = "\n".join(f"- {'✔' if g.holds else '·'} {g.goal.text or g.goal.predicate}" for g in state.goals)
+        cost = cost_text(state)
         text = (
             f"### {state.instruction}\n\n**{state.status}** {state.reason}\n\n{goals}\n\n"
-            f"planner {state.planner or '-'}, steps {state.nodes_done}/{state.nodes_total}, replans {state.replans}, "
-            f"{state.path_m:.0f} m, {state.action_steps} action steps"
+            f"{planner_text(state)}, steps {state.nodes_done}/{state.nodes_total}, replans {state.replans}, "
+            f"{state.path_m:.0f} m, {state.action_steps} action steps{f', {cost}' if cost else ''}"
         )
         self._rec.log("task", rr.TextDocument(text, media_type="text/markdown"))
 

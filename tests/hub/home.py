@@ -12,15 +12,20 @@ from wire.loopback import LoopbackMesh
 from wire.messages.goal import Goal, Selector
 from wire.messages.observation import ObjectObservation
 from wire.messages.operator import TaskQuery, TaskRequest, TaskState
+from wire.planner_table import PlannerChoice
 
 GOALS = (Goal(predicate="in", subject=Selector(type="Apple"), object=Selector(type="Fridge"), text="apple in fridge"),)
+
+SCRIPTED = PlannerChoice()
 
 
 class Flat:
     """Mesh, robots, camera; the apple is seen until it has been taken."""
 
-    def __init__(self, answer, journal: Path | None = None, fail=lambda c: None) -> None:
-        self.site = flat()
+    def __init__(
+        self, answer, journal: Path | None = None, fail=lambda c: None, choice: PlannerChoice = SCRIPTED
+    ) -> None:
+        self.site = flat().model_copy(update={"planner": choice})
         self.journal = journal
         self.mesh = LoopbackMesh()
         self.robots = [ToyRobot(self.site, "dog-1", (1.0, 1.0), fail), ToyRobot(self.site, "dog-2", (6.0, 1.0), fail)]

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from wire.messages.goal import Goal
-from wire.messages.plan import Refusal
+from wire.messages.plan import ModelCall, Refusal
 from wire.messages.world import ObjectState
 from wire.model import Id, Message, Probability, Stamp, Text, unset
 
@@ -34,6 +34,9 @@ class TaskState(Message):
     stamp_s: Stamp
     started_s: Stamp
     planner: str = ""
+    """Who made the plan."""
+    planner_note: Text = ""
+    """Why that was not the chosen planner; empty when it was."""
     goals: tuple[GoalState, ...] = ()
     refusal: Refusal | None = None
     reason: Text = ""
@@ -45,6 +48,9 @@ class TaskState(Message):
     path_m: float = Field(default=0.0, ge=0.0)
     prompt_tokens: int = Field(default=0, ge=0)
     completion_tokens: int = Field(default=0, ge=0)
+    model_calls: int = Field(default=0, ge=0)
+    stand_in: bool = False
+    """Tokens of a stand-in are in the sums: they say nothing of any model."""
     log: tuple[Text, ...] = ()
     """The last few things that happened, newest last."""
 
@@ -53,6 +59,34 @@ class TaskQuery(Message):
     """One task, or the newest when None."""
 
     task: Id | None = None
+
+
+class CallsRequest(Message):
+    """Of one task, or of the newest when None."""
+
+    task: Id | None = None
+
+
+class TimedCall(Message):
+    """A call of a model, and when the hub heard of it."""
+
+    stamp_s: Stamp
+    call: ModelCall
+
+
+class CallsReply(Message):
+    """The calls of a task from the journal, oldest first."""
+
+    task: Id
+    known: bool
+    """False when there is no such task; `text` names those that there are."""
+    text: Text = ""
+    calls: tuple[TimedCall, ...] = Field(default=(), max_length=256)
+    left_out: int = Field(default=0, ge=0)
+    """So many older ones are not in `calls`; the sums have them."""
+    prompt_tokens: int = Field(default=0, ge=0)
+    completion_tokens: int = Field(default=0, ge=0)
+    stand_in: bool = False
 
 
 class ControlRequest(Message):

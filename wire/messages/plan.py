@@ -90,6 +90,8 @@ class PlanRequest(Message):
     instruction: Text
     goals: tuple[Goal, ...] | None = None
     """Goals settled by an earlier reply for the same task: plan for these, do not read the words again."""
+    rejected: int = Field(default=0, ge=0)
+    """So many plans for this task in a row could not be carried out; why stands in `failures`."""
     world: WorldState
     skills: tuple[SkillCard, ...] = ()
     """What the robots that are there have announced, each once; who has which stands in `world.robots`."""
@@ -108,6 +110,7 @@ CallOutcome = Literal[
     "empty",
     "refused",  # the server answered with an error
     "invalid",  # a whole reply, but not what was asked for
+    "unasked",  # nothing was sent: the task's budget is spent, or only kept replies are to be used
 ]
 
 
@@ -140,6 +143,8 @@ class PlanReply(Message):
     refusal: Refusal | None = None
     calls: tuple[ModelCall, ...] = Field(default=(), max_length=64)
     """Every call of a model that was made for it, failed ones too."""
+    note: Text = ""
+    """What people should know of how it was made: that another planner than the chosen one acted, and why."""
 
 
 class NodeState(Message):

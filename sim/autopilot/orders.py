@@ -227,7 +227,7 @@ def _target(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:
     if _frame(command) in GLOBAL_FRAMES and now.origin is None and math.isnan(command.x) and math.isnan(command.y):
         command = replace(command, frame=1, z=math.nan)
     found = named_place(now, command, name)
-    return found if isinstance(found, Answer) else (found[0], found[1], min(found[2], -0.2))
+    return found if isinstance(found, Answer) else now.above_floor(found)
 
 
 def _destination(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:

@@ -14,6 +14,8 @@ CLEARANCE_M = 0.4
 """Nothing is aimed at higher than this below the ceiling."""
 LOWEST_FLIGHT_M = 0.3
 """Take-off and return go at least this high."""
+LOWEST_PLACE_M = 0.2
+"""No place to fly to lies lower than this above the floor."""
 
 
 @dataclass(slots=True)
@@ -80,6 +82,11 @@ class Situation:
         """Where a return goes: home or a rally point, whichever is nearer."""
         north, east, _ = self.here
         return min((self.home, *self.rally_ned_m), key=lambda point: math.hypot(point[0] - north, point[1] - east))
+
+    @staticmethod
+    def above_floor(point: Vec3) -> Vec3:
+        """The point, raised off the floor where it must be."""
+        return point[0], point[1], min(point[2], -LOWEST_PLACE_M)
 
     def below_ceiling(self, point: Vec3) -> Vec3:
         """The point, lowered below the ceiling where it must be."""

@@ -59,7 +59,7 @@ class Flight:
         ]
         row = PERSONALITIES[options.firmware]
         self.firmwares = [
-            Firmware(vehicle, row, k, options.home[:3], options.gps, ceiling_m)
+            Firmware(vehicle, row, k, options.home[:3], options.gps, ceiling_m, nose_to_region=not options.camera)
             for k, vehicle in enumerate(self.vehicles, start=1)
         ]
 

@@ -49,6 +49,7 @@ def report(conduct: Conduct, now_s: float) -> Telemetry:
         mission_current=mission.current,
         mission_count=max(len(mission.items), mission.first),
         target_ned_m=getattr(activity, "place_ned_m", None) if now.armed else None,
+        region_ned_m=now.region_ned_m,
         fence_breach=watch.breach,
         fence_breaches=watch.breaches,
         fence_breached_s=watch.breached_s,

@@ -42,7 +42,9 @@ class Situation:
     speed_mps: float | None = None
     """Asked for by DO_CHANGE_SPEED; None: the parameter's."""
     region_ned_m: Vec3 | None = None
-    """The region of interest: the nose points there."""
+    """The region of interest."""
+    nose_to_region: bool = False
+    """The nose points there: it has no gimbal that would."""
     payload: list[Command] = field(default_factory=list)
     """What the mission wants of camera and gimbal, not handed on yet."""
     said: list[tuple[Severity, str]] = field(default_factory=list)
@@ -104,8 +106,8 @@ class Situation:
         return -max(self.ceiling_m - CLEARANCE_M, LOWEST_FLIGHT_M)
 
     def towards_region(self) -> float | None:
-        """Heading to the region of interest; None without one or right above it."""
-        if self.region_ned_m is None:
+        """Heading to the region of interest; None without one, right above it, or where the gimbal looks there."""
+        if self.region_ned_m is None or not self.nose_to_region:
             return None
         north, east = self.region_ned_m[0] - self.here[0], self.region_ned_m[1] - self.here[1]
         return math.atan2(east, north) if math.hypot(north, east) > 0.2 else None

@@ -10,6 +10,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mav
 from sim.autopilot.interface import Ack, Answer, Command
 from sim.mavlink import modes, newer, streams
 from sim.mavlink.craft import AUTOPILOT, Craft, Sender
+from sim.mavlink.gimbal import REGIONS
 from sim.mavlink.items import scale
 from sim.mavlink.pack import i32
 from sim.mavlink.payload import Payload
@@ -137,7 +138,7 @@ class Commands:
 
     def _camera_takes(self, command: Command, sender: Sender, now_s: float) -> bool:
         """A command to all components, taken by the first that knows it."""
-        for component in self._components:
+        for component in self._components if command.id not in REGIONS else ():
             result = component.command(command, sender, now_s)
             if result is not None:
                 self._ack(command.id, result, sender, compid=component.compid)

@@ -65,6 +65,7 @@ class Node:
             mav.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: setpoints.channels,
             mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_ATTITUDE: gimbal.set_attitude,
             mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_PITCHYAW: gimbal.set_pitch_yaw,
+            mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_MANUAL_CONTROL: gimbal.set_by_sticks,
             mav.MAVLINK_MSG_ID_TIMESYNC: self._plain(upkeep.timesync),
             mav.MAVLINK_MSG_ID_PING: self._plain(upkeep.ping),
             mav.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: self._plain(upkeep.refuse_file),
@@ -112,7 +113,7 @@ class Node:
 
     def _heartbeat(self, message: Message, sender: Sender, now_s: float) -> None:
         if message.type == mav.MAV_TYPE_GCS:
-            self.craft.autopilot.heard_station(now_s)
+            self.craft.autopilot.heard_station(now_s, sender.sysid)
 
     def _data_stream(self, message: Message, sender: Sender, now_s: float) -> None:
         self.rates(sender.peer).ask_group(message.req_stream_id, message.req_message_rate, message.start_stop == 1)

@@ -13,13 +13,14 @@ from sim.mavlink.gimbal import GIMBAL
 from sim.mavlink.missions import Missions
 from sim.mavlink.params import Params
 from sim.mavlink.payload import Payload
-from sim.mavlink.peer import Message, Peer
+from sim.mavlink.peer import Message, Peer, badly_signed
 from sim.mavlink.setpoints import Setpoints
 from sim.mavlink.streams import Rates
 
 Handler = Callable[[Message, Sender, float], None]
 COMMANDS = (mav.MAVLINK_MSG_ID_COMMAND_LONG, mav.MAVLINK_MSG_ID_COMMAND_INT)
 UNSIGNED = "Unsigned command refused: sign it with the key"
+BADLY_SIGNED = "Wrong key or repeated signature, ignored: system"
 
 
 class Node:
@@ -103,8 +104,12 @@ class Node:
         handler(message, sender, now_s)
 
     def _unsigned(self, message: Message, sender: Sender, now_s: float) -> None:
+        """Both firmwares let be what is signed wrongly; that somebody tries it is said."""
         kind = message.get_msgId()
         if kind in (mav.MAVLINK_MSG_ID_HEARTBEAT, mav.MAVLINK_MSG_ID_TIMESYNC, mav.MAVLINK_MSG_ID_PING):
+            return
+        if badly_signed(message):
+            self.craft.complain(f"{BADLY_SIGNED} {sender.sysid}", now_s)
             return
         if kind in COMMANDS:
             ack = (message.command, int(Ack.DENIED), 0, 0, sender.sysid, sender.compid)

@@ -133,6 +133,7 @@ class DroneWorker:
             velocity_enu_mps=craft.velocity_mps,
             airborne=craft.airborne,
             battery=craft.telemetry.battery,
+            endurance_s=craft.endurance.full_s,
             lost=craft.lost,
             taken=craft.by_hand,
         )

@@ -11,6 +11,7 @@ from sim.mavlink.peer import Message
 
 CELLS = 4
 NO_CELL = 0xFFFF
+UNTOLD = 0
 HEIGHTS = ("ceiling", "maximum altitude")
 """The breaches of a fence that are no matter of where it is across."""
 STANDARD_GRAVITY = 9.80665
@@ -61,6 +62,7 @@ def battery(craft: Craft, now: Telemetry) -> Message:
         i32(now.battery.consumed_mah),
         i32(now.battery.consumed_mah * now.battery.voltage_v * 0.036),
         _percent(now),
+        max(1, i32(now.battery.left_s)) if now.battery.left_s is not None else UNTOLD,
     )
 
 

@@ -142,6 +142,17 @@ def test_takeoff_reports_and_lands(bed):
     client.wait("HEARTBEAT", 20.0, lambda m: m.get_srcComponent() == 1 and not m.base_mode & 128)
 
 
+def test_the_battery_says_how_long_it_lasts(bed):
+    client = bed.client()
+    assert client.wait("BATTERY_STATUS").time_remaining == 0, "on the ground nobody knows"
+    client.fly()
+    bed.firmware.set_param("SIM_BAT_DRAIN", 400.0)
+    bed.advance(30.0)
+    client.forget()
+    said = client.wait("BATTERY_STATUS")
+    assert said.time_remaining == pytest.approx(4.0 * said.battery_remaining, rel=0.1)
+
+
 def test_one_system_id_a_vehicle():
     with Bed("ardupilot", "--vehicles", "3") as bed:
         client = bed.client()

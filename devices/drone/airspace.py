@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, floor, hypot, inf
 
+from devices.drone.outlines import Outline
 from wire.model import Vec2, Vec3
 from wire.outline import segment_distance_m, spans
 from wire.site import UNDER_CEILING_M, Door, Site, Wall
@@ -27,8 +28,7 @@ Cell = tuple[int, int]
 class Obstacle:
     """A thing that stands in the way up to a height."""
 
-    middle_m: Vec2
-    radius_m: float
+    outline: Outline
     top_m: float
 
 
@@ -91,8 +91,8 @@ class Airspace:
             if top_m >= height_m - 1e-6 and self._wall_m.get(cell, WANTED_M) >= NEEDED_M
         }
         for _, thing in self._in_the_way(height_m):
-            reach = ceil((thing.radius_m + NEEDED_M) / CELL_M)
-            x, y = self.cell(thing.middle_m)
+            reach = ceil((thing.outline.reach_m + NEEDED_M) / CELL_M)
+            x, y = self.cell(thing.outline.middle_m)
             around = ((x + i, y + j) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1))
             open.difference_update(cell for cell in around if _touches(thing, self.centre_m(cell)))
         return open
@@ -109,8 +109,7 @@ class Airspace:
             id
             for id, thing in self.obstacles.items()
             if any(
-                thing.top_m + OVER_THING_M > min(a[2], b[2])
-                and segment_distance_m(thing.middle_m, a[:2], b[:2]) < thing.radius_m + NEEDED_M
+                thing.top_m + OVER_THING_M > min(a[2], b[2]) and thing.outline.way_distance_m(a[:2], b[:2]) < NEEDED_M
                 for a, b in pairwise(corners_m)
             )
         ]
@@ -163,4 +162,4 @@ class Airspace:
 
 
 def _touches(thing: Obstacle, point_m: Vec2 | Vec3) -> bool:
-    return hypot(point_m[0] - thing.middle_m[0], point_m[1] - thing.middle_m[1]) < thing.radius_m + NEEDED_M
+    return thing.outline.distance_m(point_m[:2]) < NEEDED_M

@@ -19,7 +19,10 @@ _FASTEST_MPS = 20.0
 
 def named_place(now: Situation, command: Command, what: str) -> Vec3 | Answer:
     """Local NED of the place that a command names, or why `what` is refused."""
-    found = place(_frame(command), command.x, command.y, command.z, now.origin, now.home, now.here)
+    frame = _frame(command)
+    if frame in GLOBAL_FRAMES and command.id in now.row.above_sea_level:
+        frame = 0
+    found = place(frame, command.x, command.y, command.z, now.origin, now.home, now.here)
     if found is None:
         return Answer(Ack.UNSUPPORTED_FRAME)
     return Answer(Ack.DENIED, f"{what} refused: {found}") if isinstance(found, str) else found

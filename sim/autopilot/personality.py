@@ -64,6 +64,8 @@ class Personality:
     """The result when there is no such mode."""
     inclusions: Literal["all", "any"]
     """Whether it must stay inside all of the fence's inclusions or inside any."""
+    above_sea_level: frozenset[int]
+    """MAV_CMD whose altitude in a global frame is taken for one above mean sea level, whatever the frame says."""
     listed: tuple[Listed, ...]
     """The modes that it tells ground stations of, in this order; none where it does not know that protocol."""
     quantities: dict[Quantity, tuple[str, float]]
@@ -121,6 +123,7 @@ ARDUPILOT = Personality(
     unknown_items=frozenset({4501}),  # CONDITION_GATE
     unknown_mode=Ack.FAILED,
     inclusions="all",
+    above_sea_level=frozenset({34}),  # DO_ORBIT, as MAVSDK sends it: in a relative frame
     listed=(),
     quantities={
         "cruise_mps": ("WPNAV_SPEED", 0.01),
@@ -163,6 +166,7 @@ PX4 = Personality(
     unknown_items=frozenset({82}),  # NAV_SPLINE_WAYPOINT
     unknown_mode=Ack.DENIED,
     inclusions="any",
+    above_sea_level=frozenset({34, 195}),  # and DO_SET_ROI_LOCATION: PX4 does not look at the frame
     listed=(
         Listed(px4_mode(1), "Manual", advanced=True),
         Listed(px4_mode(2), "Altitude", standard=4),

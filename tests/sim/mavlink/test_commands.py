@@ -134,6 +134,52 @@ def test_command_int_is_scaled(bed):
     client.wait("LOCAL_POSITION_NED", 15.0, lambda m: abs(m.x - 2.0) < 0.2)
 
 
+def test_the_altitude_of_an_orbit_is_above_the_sea_whatever_the_frame(bed):
+    """As MAVSDK sends it."""
+    client = bed.client()
+    client.fly()
+    here = client.wait("GLOBAL_POSITION_INT")
+    client.mav.command_int_send(1, 1, 3, mav.MAV_CMD_DO_ORBIT, 0, 0, 1, 1, 0, NAN, here.lat, here.lon, 490.0)
+    assert client.wait("COMMAND_ACK").result == 0, client.texts()
+    bed.advance(6.0)
+    assert here_down(client) == pytest.approx(-2.0, abs=0.3)
+
+
+def here_down(client) -> float:
+    client.forget()
+    return float(client.wait("LOCAL_POSITION_NED").z)
+
+
+@pytest.mark.parametrize(("params", "name"), [((1,), "gyro"), ((0, 1), "mag"), ((0, 0, 0, 0, 1), "accel")])
+def test_px4_tells_of_a_calibration_in_the_words_that_stations_wait_for(params, name):
+    with Bed("px4") as bed:
+        client = bed.client()
+        bed.advance(1.0)
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION, *params) == 0
+        bed.advance(0.5)
+        said = [text for text in client.texts() if text.startswith("[cal]")]
+        assert (said[0], said[-1]) == (f"[cal] calibration started: 2 {name}", f"[cal] calibration done: {name}")
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION) == 0, "called off"
+        bed.advance(0.5)
+        assert not client.texts()
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION, 0, 0, 0, 1) == mav.MAV_RESULT_UNSUPPORTED
+
+
+def test_a_reboot_mends_what_was_broken_and_nothing_shuts_down(bed):
+    client = bed.client()
+    bed.advance(3.0)
+    if bed.firmware.now.row.name == "px4":
+        bed.firmware.set_param("SYS_FAILURE_EN", 1)
+    assert client.command(mav.MAV_CMD_INJECT_FAILURE, 4, 1) == 0
+    client.wait("SYS_STATUS", 10.0, lambda m: not m.onboard_control_sensors_health & 0x10000000)
+    assert client.command(mav.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 2) == mav.MAV_RESULT_DENIED
+    bed.advance(0.2)
+    assert "Only a reboot is possible" in "".join(client.texts())
+    assert client.command(mav.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 1) == 0
+    client.forget()
+    client.wait("SYS_STATUS", 20.0, lambda m: bool(m.onboard_control_sensors_health & 0x10000000))
+
+
 def test_takeoff_reports_and_lands(bed):
     client = bed.client()
     client.fly()

@@ -125,7 +125,8 @@ def look_at(client, north: float, east: float, target: int) -> int:
     client.forget()
     east_deg = east * METRE / math.cos(math.radians(HOME[0]))
     x, y = round((HOME[0] + north * METRE) * 1e7), round((HOME[1] + east_deg) * 1e7)
-    client.mav.command_int_send(1, target, 6, mav.MAV_CMD_DO_SET_ROI_LOCATION, 0, 0, 0, 0, 0, 0, x, y, 0.0)
+    floor = 488.0 if client.bed.firmware.now.row.name == "px4" else 0.0  # which takes every altitude for one AMSL
+    client.mav.command_int_send(1, target, 6, mav.MAV_CMD_DO_SET_ROI_LOCATION, 0, 0, 0, 0, 0, 0, x, y, floor)
     return client.wait("COMMAND_ACK", such=lambda m: m.command == mav.MAV_CMD_DO_SET_ROI_LOCATION).result
 
 

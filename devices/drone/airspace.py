@@ -20,6 +20,8 @@ DOORWAY_M = 0.6
 """The drone is under a lintel this far from the middle line of a door."""
 OVER_THING_M = 0.35
 ON_WALL_M = 0.3
+BODY_M = 0.15
+"""What stands nearer to its middle would be touched by its body, wherever that is a little out."""
 
 Cell = tuple[int, int]
 
@@ -83,14 +85,17 @@ class Airspace:
         """What a drone at this point would be in or too near to."""
         return next((id for id, thing in self._in_the_way(point_m[2]) if _touches(thing, point_m)), "")
 
-    def open_cells(self, height_m: float) -> set[Cell]:
-        """Squares over whose middles a drone may be at that height."""
+    def open_cells(self, height_m: float, from_m: Vec3 | None = None) -> set[Cell]:
+        """Squares over whose middles a drone may be at that height. Nothing is where a drone is: what `from_m`, where
+        one is, lies in, is believed to be elsewhere than it is."""
         open = {
             cell
             for cell, top_m in self._top_m.items()
             if top_m >= height_m - 1e-6 and self._wall_m.get(cell, WANTED_M) >= NEEDED_M
         }
         for _, thing in self._in_the_way(height_m):
+            if from_m is not None and from_m[2] < thing.top_m and thing.outline.distance_m(from_m[:2]) < BODY_M:
+                continue
             reach = ceil((thing.outline.reach_m + NEEDED_M) / CELL_M)
             x, y = self.cell(thing.outline.middle_m)
             around = ((x + i, y + j) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1))

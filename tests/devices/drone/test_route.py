@@ -126,6 +126,18 @@ def test_it_starts_from_where_it_stands_even_beside_something():
     assert (way[0], way[-1]) == ((1.6, 1.0, 1.5), (3.0, 3.0, 1.5))
 
 
+def test_it_leaves_from_within_what_is_wrongly_believed_to_stand_there():
+    """Or else it would hover there until its battery is low."""
+    space = Airspace(flat())
+    space.obstacles = {"fridge-1": Obstacle(Outline((1.6, 1.0), 0.6), 1.8)}
+    for start in ((1.6, 1.0, 1.5), (1.9, 1.2, 1.5)):
+        way = find_way(space, start, (3.0, 3.0, 1.5), 1.5)
+        assert way is not None
+        assert (way[0], way[-1]) == (start, (3.0, 3.0, 1.5))
+    over = find_way(space, (1.6, 1.0, 2.2), (3.0, 3.0, 1.5), 1.5)
+    assert over is None, "it is really there, below"
+
+
 def test_no_wall_is_looked_through():
     assert SPACE.in_sight((1.0, 1.0), (3.0, 3.0))
     assert not SPACE.in_sight((3.0, 1.0), (5.0, 1.0))

@@ -79,16 +79,17 @@ class Firmware(Conduct):
         self.now.origin = origin
         return True
 
-    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> None:
+    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> bool:
         if not self._follows(sysid):
             if sysid not in self.strangers:
                 self.strangers.add(sysid)
                 followed = self.now.params.get("SYSID_MYGCS")
                 self.now.say(Severity.WARNING, f"Sticks of system {sysid} ignored: SYSID_MYGCS is {followed:g}")
-            return
+            return False
         fine = all(-1.0 <= stick <= 1.0 for stick in (roll, pitch, yaw)) and 0.0 <= throttle <= 1.0
         if fine and isinstance(self.activity, Manual):
             self.activity.sticks = Sticks(roll, pitch, throttle, yaw, now_s)
+        return True
 
     def heard_station(self, now_s: float, sysid: int) -> None:
         if self._follows(sysid):

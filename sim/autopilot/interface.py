@@ -203,8 +203,9 @@ class Autopilot(Protocol):
 
     def set_origin(self, latitude_deg: float, longitude_deg: float, altitude_m: float) -> bool: ...
 
-    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> None:
-        """MANUAL_CONTROL or RC override of the station `sysid`: -1 to 1 each, throttle 0 to 1."""
+    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> bool:
+        """MANUAL_CONTROL or RC override of the station `sysid`: -1 to 1 each, throttle 0 to 1. Whether its sticks count
+        at all."""
         ...
 
     def heard_station(self, now_s: float, sysid: int) -> None:

@@ -47,6 +47,7 @@ class Node:
             mav.MAVLINK_MSG_ID_PARAM_REQUEST_READ: params.read,
             mav.MAVLINK_MSG_ID_PARAM_SET: params.set,
             mav.MAVLINK_MSG_ID_MISSION_COUNT: missions.count,
+            mav.MAVLINK_MSG_ID_MISSION_WRITE_PARTIAL_LIST: missions.part,
             mav.MAVLINK_MSG_ID_MISSION_ITEM: missions.item,
             mav.MAVLINK_MSG_ID_MISSION_ITEM_INT: missions.item,
             mav.MAVLINK_MSG_ID_MISSION_ACK: missions.ack,

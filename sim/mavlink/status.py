@@ -98,13 +98,13 @@ def estimator(craft: Craft, now: Telemetry) -> Message:
 
 def rc_raw(craft: Craft, now: Telemetry) -> Message:
     return mav.MAVLink_rc_channels_raw_message(
-        boot_ms(now.now_s), 0, 1500, 1500, 1000, 1500, 1800, 1000, 1000, 1800, 255
+        boot_ms(now.now_s), 0, *craft.sticks_us(now.now_s), 1800, 1000, 1000, 1800, 255
     )
 
 
 def rc(craft: Craft, now: Telemetry) -> Message:
     unused = (NO_CELL,) * 10
-    sticks = (1500, 1500, 1000, 1500, 1800, 1000, 1000, 1800)
+    sticks = (*craft.sticks_us(now.now_s), 1800, 1000, 1000, 1800)
     return mav.MAVLink_rc_channels_message(boot_ms(now.now_s), 8, *sticks, *unused, 255)
 
 

@@ -63,3 +63,16 @@ def test_versions_that_it_speaks(bed, asking):
     payload = frame[10 : 10 + frame[1]].ljust(22, b"\0")  # zeros at the end do not travel
     assert struct.unpack("<HHH", payload[:6]) == (200, 100, 200)
     assert client.command(mav.MAV_CMD_REQUEST_PROTOCOL_VERSION, 0) == mav.MAV_RESULT_DENIED
+
+
+@pytest.mark.parametrize(
+    ("firmware", "mode", "base_mode"),
+    [("ardupilot", "stabilize", 81), ("ardupilot", "offboard", 89), ("px4", "hold", 29), ("px4", "position", 81)],
+)
+def test_the_base_mode_is_as_the_firmware_has_it(firmware, mode, base_mode):
+    with Bed(firmware) as bed:
+        client = bed.client()
+        bed.advance(3.0)
+        bed.firmware.set_mode(1, bed.firmware.now.row.modes[mode], bed.flight.now_s)
+        client.forget()
+        assert client.wait("HEARTBEAT", such=lambda m: m.get_srcComponent() == 1).base_mode == base_mode

@@ -137,6 +137,26 @@ def test_arducopter_follows_the_sticks_and_the_heartbeat_of_one_station():
         assert bed.firmware.telemetry(bed.flight.now_s).custom_mode == row.modes["land"], "the other one does not count"
 
 
+def test_overridden_channels_are_told_until_they_are_let_go(bed):
+    own, other = bed.client("tcp", 255), bed.client("udp", 245)
+    bed.advance(1.0)
+
+    def throttle_us() -> int:
+        own.forget()
+        return int(own.wait("RC_CHANNELS").chan3_raw)
+
+    assert throttle_us() == 1000
+    own.mav.rc_channels_override_send(1, 1, 1500, 1500, 1350, 1500, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == 1350
+    own.mav.rc_channels_override_send(1, 1, 0, 0, 0, 0, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == 1000
+    other.mav.rc_channels_override_send(1, 1, 1500, 1500, 1700, 1500, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == (1700 if bed.firmware.now.row.name == "px4" else 1000), "SYSID_MYGCS is 255"
+
+
 def test_time_is_handed_in(bed):
     client = bed.client()
     bed.advance(1.0)

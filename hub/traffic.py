@@ -201,7 +201,7 @@ class Traffic:
         kept = self._aside.get(mover.id)
         ways = [(m, cut(m.way, 2 * _AHEAD_M)) for m in before if m.path_m]
         spot = kept if kept is not None and self._parking.good(kept, mover, ways, others) else None
-        if spot is None or self._stands_before(mover, spot, movers):
+        if spot is None or self._stands_before(mover, spot, movers, now_s):
             spot = self._parking.find(mover, ways, others)
         if spot is None:
             self._swap(mover, first, now_s)
@@ -214,10 +214,10 @@ class Traffic:
             return Ruling(go=False, because=because, held_by=bumped)
         return Ruling(go=True, step_aside_m=spot, because=f"in the way of {first.id}")
 
-    def _stands_before(self, mover: Mover, spot: Vec2, movers: Sequence[Mover]) -> bool:
-        """Whether somebody who wants nothing is on the way to a place to step aside to: that way was free once."""
+    def _stands_before(self, mover: Mover, spot: Vec2, movers: Sequence[Mover], now_s: float) -> bool:
+        """Whether somebody has come to stand on the way to a place to step aside to."""
         bumped = self._bumps(mover, _way_aside(mover, spot), movers)
-        return any(m.id == bumped and not m.path_m for m in movers)
+        return any(m.id == bumped and (not m.path_m or now_s - self._moved[m.id][1] > _STILL_S) for m in movers)
 
     def _plead(self, mover: Mover, ways: Sequence[Way], others: Sequence[Mover]) -> None:
         """Have one that wants nothing make room for one that has nowhere to go."""

@@ -52,6 +52,7 @@ class Reporter:
             path_heights_m=pose.path_heights_m,
             airborne=pose.airborne,
             battery=pose.battery,
+            endurance_s=round(pose.endurance_s) if pose.endurance_s is not None else None,
         )
         self._node.publish("robot_report", report, self.id)
 

@@ -38,6 +38,8 @@ class Pose:
     airborne: bool = False
     battery: float | None = None
     """What is left of it, 0 to 1."""
+    endurance_s: float | None = None
+    """How long a full one lasts at work, where that is known."""
     lost: bool = False
     """What moves the body does not answer: the rest is what it said last."""
     taken: bool = False

@@ -33,7 +33,8 @@ _TAKE_OFF_M = 3.0
 _FROM_BELOW_M = 6.0
 """Looks from above are rather for those who fly."""
 _ENDURANCE_S, _AT_WORK_S, _RESERVE = 480.0, 30.0, 0.2
-"""A full battery keeps a small drone in the air so long; a task there takes so long; this much is left in the end."""
+"""A full battery is taken to keep a drone in the air so long until the drone knows better; a task there takes so long;
+this much is left in the end."""
 _USUAL_MPS = 0.8
 
 
@@ -124,7 +125,7 @@ class Dispatch:
         if way_m == inf:
             return ""
         seconds = way_m / min(robot.speed_mps or _USUAL_MPS, _USUAL_MPS) + _AT_WORK_S
-        needed = _RESERVE + seconds / _ENDURANCE_S
+        needed = _RESERVE + seconds / (robot.endurance_s or _ENDURANCE_S)
         if robot.battery >= needed:
             return ""
         return f"the battery of {robot.id} is at {robot.battery:.0%}; {needed:.0%} is needed for the way there and back"

@@ -29,6 +29,7 @@ class Robot:
         "announced",
         "battery",
         "card",
+        "endurance_s",
         "goal_id",
         "holding",
         "holding_type",
@@ -65,6 +66,8 @@ class Robot:
         """Of what flies: how high it will be at each point of its path."""
         self.airborne = False
         self.battery: float | None = None
+        self.endurance_s: float | None = None
+        """How long a full battery lasts, where the robot knows."""
         self.velocity_mps: Vec3 = (0.0, 0.0, 0.0)
         self.home_m: Vec2 | None = None
         """Where what flies last stood on the ground."""
@@ -136,6 +139,7 @@ class Fleet:
         robot.path_m, robot.holding_type = report.path_m, report.holding_type
         robot.travelled_m, robot.action_steps = report.travelled_m, report.action_steps
         robot.airborne, robot.battery, robot.path_heights_m = report.airborne, report.battery, report.path_heights_m
+        robot.endurance_s = report.endurance_s
         robot.velocity_mps = report.velocity_enu_mps or (0.0, 0.0, 0.0)
         robot.home_m = robot.home_m if report.airborne else robot.xy
         robot.stamp_s, robot.present = report.stamp_s, True

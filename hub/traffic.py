@@ -6,12 +6,12 @@ whoever arrives gives up its place, so nobody waits for ever.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import hypot
 
 from hub.floor import Doorway, FloorPlan
 from hub.movers import Mover, Ruling, share_height
-from hub.parking import Parking
+from hub.parking import Parking, Way
 from hub.ways import cut, path_to_path_m, point_to_path_m
 from wire.model import Vec2
 
@@ -63,6 +63,9 @@ class Traffic:
         """Who waited for whom at the last look."""
         self._moves: dict[str, list[Vec2]] = {}
         """What each robot sweeps until the next look, of those already told."""
+        self._pleas: dict[str, Mover] = {}
+        """By one that wants nothing: for whom it makes room, with the way that this one would go then."""
+        self._boxed_in: set[str] = set()  # who found nowhere to step aside to at this look
         self._parking = Parking(self.floor, self.blocked)
 
     def rule(self, movers: Sequence[Mover], now_s: float) -> dict[str, Ruling]:
@@ -76,13 +79,16 @@ class Traffic:
         order = sorted(movers, key=lambda m: self._rank(m))
         rulings: dict[str, Ruling] = {}
         self._moves = {m.id: [m.position_m] for m in movers}
+        self._boxed_in = set()
         for index, mover in enumerate(order):
             before = [m for m in order[:index] if share_height(m, mover)]
+            before += [self._pleas[mover.id]] if mover.id in self._pleas else []
             met = [m for m in movers if share_height(m, mover)]
             ruling = rulings[mover.id] = self._rule_one(mover, before, met, now_s)
             if ruling.go:
                 way = mover.way if ruling.step_aside_m is None else _way_aside(mover, ruling.step_aside_m)
                 self._moves[mover.id] = cut(way, _SWEPT_M)
+        self._pleas = {id: plea for id, plea in self._pleas.items() if plea.id in self._boxed_in}
         self._held_by = {id: ruling.held_by for id, ruling in rulings.items() if not ruling.go and ruling.held_by}
         return rulings
 
@@ -195,18 +201,39 @@ class Traffic:
         kept = self._aside.get(mover.id)
         ways = [(m, cut(m.way, 2 * _AHEAD_M)) for m in before if m.path_m]
         spot = kept if kept is not None and self._parking.good(kept, mover, ways, others) else None
-        if spot is None:
+        if spot is None or self._stands_before(mover, spot, movers, now_s):
             spot = self._parking.find(mover, ways, others)
         if spot is None:
             self._swap(mover, first, now_s)
+            self._plead(mover, ways, others)
             self._aside.pop(mover.id, None)
             return Ruling(go=False, because=f"in the way of {first.id}, with nowhere to go", held_by=first.id)
         self._aside[mover.id] = spot
-        bumped = self._bumps(mover, _way_aside(mover, spot), movers)
-        if bumped is not None:
+        if (bumped := self._bumps(mover, _way_aside(mover, spot), movers)) is not None:
             because = f"{bumped} is in front of the place to step aside to"
             return Ruling(go=False, because=because, held_by=bumped)
         return Ruling(go=True, step_aside_m=spot, because=f"in the way of {first.id}")
+
+    def _stands_before(self, mover: Mover, spot: Vec2, movers: Sequence[Mover], now_s: float) -> bool:
+        """Whether somebody has come to stand on the way to a place to step aside to."""
+        bumped = self._bumps(mover, _way_aside(mover, spot), movers)
+        return any(m.id == bumped and (not m.path_m or now_s - self._moved[m.id][1] > _STILL_S) for m in movers)
+
+    def _plead(self, mover: Mover, ways: Sequence[Way], others: Sequence[Mover]) -> None:
+        """Have one that wants nothing make room for one that has nowhere to go."""
+        self._boxed_in.add(mover.id)
+        if any(plea.id == mover.id for plea in self._pleas.values()):
+            return
+        resting = [m for m in others if not m.path_m and m.id not in self._pleas]
+        for idle in sorted(resting, key=lambda m: (_apart_m(m.position_m, mover.position_m), m.id)):
+            rest = [m for m in others if m.id != idle.id]
+            spot = self._parking.find(mover, ways, rest)
+            if spot is None:
+                continue
+            plea = replace(mover, path_m=(spot,))
+            if self._parking.find(idle, [*ways, (plea, plea.way)], [*rest, mover]) is not None:
+                self._pleas[idle.id] = plea
+                return
 
     def _swap(self, mover: Mover, first: Mover, now_s: float) -> None:
         """Nowhere to step aside: let the boxed-in one go first for a while."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, floor, hypot, inf
 
+from devices.drone.outlines import Outline
 from wire.model import Vec2, Vec3
 from wire.outline import segment_distance_m, spans
 from wire.site import UNDER_CEILING_M, Door, Site, Wall
@@ -19,6 +20,8 @@ DOORWAY_M = 0.6
 """The drone is under a lintel this far from the middle line of a door."""
 OVER_THING_M = 0.35
 ON_WALL_M = 0.3
+BODY_M = 0.15
+"""What stands nearer to its middle would be touched by its body, wherever that is a little out."""
 
 Cell = tuple[int, int]
 
@@ -27,8 +30,7 @@ Cell = tuple[int, int]
 class Obstacle:
     """A thing that stands in the way up to a height."""
 
-    middle_m: Vec2
-    radius_m: float
+    outline: Outline
     top_m: float
 
 
@@ -83,16 +85,19 @@ class Airspace:
         """What a drone at this point would be in or too near to."""
         return next((id for id, thing in self._in_the_way(point_m[2]) if _touches(thing, point_m)), "")
 
-    def open_cells(self, height_m: float) -> set[Cell]:
-        """Squares over whose middles a drone may be at that height."""
+    def open_cells(self, height_m: float, from_m: Vec3 | None = None) -> set[Cell]:
+        """Squares over whose middles a drone may be at that height. Nothing is where a drone is: what `from_m`, where
+        one is, lies in, is believed to be elsewhere than it is."""
         open = {
             cell
             for cell, top_m in self._top_m.items()
             if top_m >= height_m - 1e-6 and self._wall_m.get(cell, WANTED_M) >= NEEDED_M
         }
         for _, thing in self._in_the_way(height_m):
-            reach = ceil((thing.radius_m + NEEDED_M) / CELL_M)
-            x, y = self.cell(thing.middle_m)
+            if from_m is not None and from_m[2] < thing.top_m and thing.outline.distance_m(from_m[:2]) < BODY_M:
+                continue
+            reach = ceil((thing.outline.reach_m + NEEDED_M) / CELL_M)
+            x, y = self.cell(thing.outline.middle_m)
             around = ((x + i, y + j) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1))
             open.difference_update(cell for cell in around if _touches(thing, self.centre_m(cell)))
         return open
@@ -109,8 +114,7 @@ class Airspace:
             id
             for id, thing in self.obstacles.items()
             if any(
-                thing.top_m + OVER_THING_M > min(a[2], b[2])
-                and segment_distance_m(thing.middle_m, a[:2], b[:2]) < thing.radius_m + NEEDED_M
+                thing.top_m + OVER_THING_M > min(a[2], b[2]) and thing.outline.way_distance_m(a[:2], b[:2]) < NEEDED_M
                 for a, b in pairwise(corners_m)
             )
         ]
@@ -163,4 +167,4 @@ class Airspace:
 
 
 def _touches(thing: Obstacle, point_m: Vec2 | Vec3) -> bool:
-    return hypot(point_m[0] - thing.middle_m[0], point_m[1] - thing.middle_m[1]) < thing.radius_m + NEEDED_M
+    return thing.outline.distance_m(point_m[:2]) < NEEDED_M

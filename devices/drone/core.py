@@ -36,7 +36,7 @@ class DroneCore:
         self._id, self._journal = id, journal
         self._hub_ids = [process.id for process in site.process if process.role == "hub"]
         self._pilot = open_pilot(row)
-        self._obstacles = Obstacles()
+        self._obstacles = Obstacles(site.wall)
         space = Airspace(site)
         space.obstacles = self._obstacles.by_id
         self.craft = Craft(row, space, self._pilot)

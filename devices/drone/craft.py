@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from math import dist, hypot
 
 from devices.drone.airspace import Airspace
+from devices.drone.endurance import Endurance
 from devices.drone.pilot import (
     Answered,
     Found,
@@ -71,6 +72,7 @@ class Craft:
         """Under way by an order from here: what `hover` ends."""
         self.steered = False
         """It takes setpoints from here."""
+        self.endurance = Endurance()
         self.stop_m: Vec3 | None = None
         """Where it would come to a stand on its way."""
         self._heard_s: float | None = None
@@ -240,6 +242,7 @@ class Craft:
         if telemetry.position_enu_m is not None:
             self.position_m = telemetry.position_enu_m
             self._count(telemetry.position_enu_m)
+        self.endurance.take(self.now_s, self.airborne, telemetry.battery, telemetry.battery_left_s)
         self.by_hand = telemetry.mode in BY_HAND and (self.by_hand or self.airborne)
         if telemetry.mode in STEERED:
             self._other_mode_s = None

@@ -78,6 +78,8 @@ class Telemetry:
     located: bool
     """The autopilot trusts its own position."""
     armable: bool
+    battery_left_s: float | None = None
+    """How long it believes that its battery keeps it in the air; None where it does not say."""
 
 
 @dataclass(frozen=True, slots=True)

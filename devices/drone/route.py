@@ -66,7 +66,7 @@ def nearest_open(space: Airspace, point_m: Vec3, within_m: float) -> Vec3 | None
 
 
 def _level_way(space: Airspace, start_m: Vec3, goal_m: Vec3, height_m: float) -> Seeking[Vec2]:
-    open_cells = space.open_cells(height_m)
+    open_cells = space.open_cells(height_m, start_m)
     begin, end = space.cell(start_m), space.cell(goal_m)
     if end not in open_cells or height_m > space.top_m(start_m):
         return None

@@ -68,6 +68,7 @@ class Vehicle:
         self._yaw_rad, self._mode, self._landed = 0.0, "UNKNOWN", 0
         self._armed: bool | None = None
         self._battery: float | None = None
+        self._battery_left_s: float | None = None
         self._health_ok = self._armable = False
         self._cameras: list[int] = []
         self._has_camera = asyncio.Event()
@@ -238,6 +239,8 @@ class Vehicle:
         percent = value.remaining_percent
         if isfinite(percent) and percent >= 0.0:
             self._battery = min(1.0, percent / 100.0)
+        left_s = value.time_remaining_s
+        self._battery_left_s = left_s if isfinite(left_s) and left_s > 0.0 else None
 
     def _on_text(self, text: Any) -> None:
         self._tell(Said(text.text, text.type >= StatusTextType.WARNING))
@@ -268,6 +271,7 @@ class Vehicle:
                 self._battery,
                 known and self._health_ok,
                 self._armable,
+                self._battery_left_s,
             )
         )
 

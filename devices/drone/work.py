@@ -35,6 +35,7 @@ class DroneWorker:
         self._aside_m: Vec2 | None = None
         self._idle_s: float | None = None
         self._homeward: Skilled | None = None
+        self._no_way_home = False
 
     def card(self, boot_id: str) -> DeviceCard:
         return DeviceCard(
@@ -133,6 +134,7 @@ class DroneWorker:
             velocity_enu_mps=craft.velocity_mps,
             airborne=craft.airborne,
             battery=craft.telemetry.battery,
+            endurance_s=craft.endurance.full_s,
             lost=craft.lost,
             taken=craft.by_hand,
         )
@@ -142,7 +144,8 @@ class DroneWorker:
         return (self._craft.fraction, self._craft.note)
 
     def _go_home(self) -> bool:
-        """Whether this step went into flying home and landing, after it has long had nothing to do."""
+        """Whether this step went into flying home and landing, after it has long had nothing to do; where there is no way
+        home, it lands where it is."""
         craft = self._craft
         if not craft.airborne:
             self._stay()
@@ -150,9 +153,15 @@ class DroneWorker:
         self._idle_s = craft.now_s if self._idle_s is None else self._idle_s
         if not craft.row.idle_home_s or craft.now_s - self._idle_s < craft.row.idle_home_s:
             return False
-        self._homeward = self._homeward or (go_home(craft) if craft.home_m is not None else land_here(craft))
-        if next(self._homeward, THROUGH) is THROUGH:
-            self._stay()
+        landing = craft.home_m is None or self._no_way_home
+        self._homeward = self._homeward or (land_here(craft) if landing else go_home(craft))
+        try:
+            next(self._homeward)
+        except StopIteration as end:
+            self._no_way_home = end.value.status == "failed" and not landing
+            self._homeward = None
+            if not self._no_way_home:
+                self._stay()
         return True
 
     def _stay(self) -> None:
@@ -160,6 +169,7 @@ class DroneWorker:
         if self._homeward is not None:
             self._homeward.close()
         self._homeward = self._idle_s = None
+        self._no_way_home = False
 
     def _step_aside(self) -> bool:
         """Whether this step went into clearing the way for somebody; on the ground nobody can be made way for."""

@@ -11,6 +11,15 @@ from sim.autopilot.interface import Ack, Answer, Command, Severity
 _ACCEPTED = orders.ACCEPTED
 _UNITS = {0: "gyro", 1: "accel", 2: "mag", 3: "baro", 4: "fix", 100: "battery"}
 """FAILURE_UNIT."""
+_CALIBRATIONS = {
+    (0, 1.0): "gyro",
+    (1, 1.0): "mag",
+    (2, 1.0): "baro",
+    (3, 1.0): "accel",
+    (3, 2.0): "level",
+    (3, 4.0): "accel",
+}
+"""Which of params 1, 2, 3 and 5 of PREFLIGHT_CALIBRATION has which value, and what PX4 calls it."""
 
 
 def _arm(conduct: Conduct, command: Command, now_s: float) -> Answer:
@@ -105,10 +114,21 @@ def _terminate(conduct: Conduct, command: Command, now_s: float) -> Answer:
 
 
 def _calibrate(conduct: Conduct, command: Command, now_s: float) -> Answer:
-    """PREFLIGHT_CALIBRATION: there is nothing to be found out, so it is done at once."""
-    if conduct.now.armed:
-        return Answer(conduct.now.row.refused, "Calibration refused: disarm first")
-    conduct.now.say(Severity.INFO, "Calibration successful")
+    """PREFLIGHT_CALIBRATION: there is nothing to be found out, so it is done at once. All zeros call one off."""
+    now = conduct.now
+    if now.armed:
+        return Answer(now.row.refused, "Calibration refused: disarm first")
+    asked = (*command.params[:3], command.x)
+    something = any(value and not math.isnan(value) for value in (*command.params, command.x))
+    if now.row.name == "ardupilot":
+        now.say(Severity.INFO, "Calibration successful")
+    elif something:
+        name = next((name for which, name in _CALIBRATIONS.items() if asked[which[0]] == which[1]), None)
+        if name is None:
+            return Answer(Ack.UNSUPPORTED)
+        # Ground stations wait for these very words.
+        for words in (f"calibration started: 2 {name}", "progress <0>", "progress <100>", f"calibration done: {name}"):
+            now.say(Severity.INFO, f"[cal] {words}")
     return _ACCEPTED
 
 
@@ -117,9 +137,11 @@ def _reboot(conduct: Conduct, command: Command, now_s: float) -> Answer:
     if conduct.now.armed:
         return Answer(conduct.now.row.refused, "Reboot refused: disarm first")
     if command.params[0] not in (0.0, 1.0):
-        return Answer(Ack.DENIED)
+        return Answer(Ack.DENIED, "Only a reboot is possible (param 1 is 1): the simulator is ended from outside")
     if command.params[0] == 1.0:
         conduct.reboot(now_s)
+        for name in _UNITS.values():
+            conduct.vehicle.fail(name, True)
     return _ACCEPTED
 
 

@@ -41,16 +41,18 @@ class Conduct:
         origin: tuple[float, float, float] | None = None,
         gps: Literal["fused", "none"] = "fused",
         ceiling_m: float = math.inf,
+        nose_to_region: bool = False,
     ) -> None:
         """`origin`: (latitude deg, longitude deg, altitude m AMSL) of local NED's origin, unused without `fused`
-        positioning. `ceiling_m`: above the floor."""
+        positioning. `ceiling_m`: above the floor. `nose_to_region`: no gimbal turns to a region of interest for it."""
         self.sysid = sysid
         self.vehicle = vehicle
         at = Origin(*origin) if origin is not None and gps == "fused" else None
         first: Mode = "stabilize" if personality.name == "ardupilot" else "hold"
         self.now = Situation(
-            vehicle, personality, Params(personality.params, sysid), gps, ceiling_m, at, first, personality.modes[first]
-        )
+            vehicle, personality, Params(personality.params, sysid), gps, ceiling_m, at, first, personality.modes[first],
+            nose_to_region=nose_to_region,
+        )  # fmt: skip
         self.plans = Plans(self.now)
         self.failsafes = Failsafes()
         self.waiting: tuple[int, float, float] | None = None
@@ -59,6 +61,8 @@ class Conduct:
         """(command, result, percent) not told yet."""
         self.stream: Trajectory | AttitudeTarget | None = None
         """The latest setpoint, where offboard flies a stream of them."""
+        self.strangers: set[int] = set()
+        """System ids of stations that do not count, whose sticks were ignored and who were told so."""
         self.activity: Activity = self.begin(first)
         self._decided_s = self._looked_s = self._told_s = -math.inf
         self._grounded_s: float | None = None

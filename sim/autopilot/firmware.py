@@ -31,7 +31,6 @@ class Firmware(Conduct):
     """An `Autopilot` above a `Vehicle`."""
 
     _complained_s = -math.inf
-
     # What comes in
 
     def command(self, command: Command, now_s: float) -> Answer:
@@ -80,13 +79,25 @@ class Firmware(Conduct):
         self.now.origin = origin
         return True
 
-    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float) -> None:
+    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> bool:
+        if not self._follows(sysid):
+            if sysid not in self.strangers:
+                self.strangers.add(sysid)
+                followed = self.now.params.get("SYSID_MYGCS")
+                self.now.say(Severity.WARNING, f"Sticks of system {sysid} ignored: SYSID_MYGCS is {followed:g}")
+            return False
         fine = all(-1.0 <= stick <= 1.0 for stick in (roll, pitch, yaw)) and 0.0 <= throttle <= 1.0
         if fine and isinstance(self.activity, Manual):
             self.activity.sticks = Sticks(roll, pitch, throttle, yaw, now_s)
+        return True
 
-    def heard_station(self, now_s: float) -> None:
-        self.failsafes.watch.station_s = now_s
+    def heard_station(self, now_s: float, sysid: int) -> None:
+        if self._follows(sysid):
+            self.failsafes.watch.station_s = now_s
+
+    def _follows(self, sysid: int) -> bool:
+        """ArduCopter has one ground station that counts, by its system id; PX4 counts them all."""
+        return int(self.now.params.get("SYSID_MYGCS", sysid)) == sysid
 
     # Parameters and plans
 
@@ -96,7 +107,10 @@ class Firmware(Conduct):
     def set_param(self, name: str, value: float) -> Param | str:
         found = self.now.params.set(name, value)
         if isinstance(found, Param):
-            if name == "SIM_BAT_DRAIN":
+            if name == "SYSID_MYGCS":
+                self.strangers.clear()
+                self.failsafes.watch.station_s = None  # the other one is not waited for
+            elif name == "SIM_BAT_DRAIN":
                 self.vehicle.set_battery(None, value, None)
             elif name == "SIM_BAT_REMAIN" and value >= 0:
                 self.vehicle.set_battery(value / 100, None, None)

@@ -148,6 +148,8 @@ class Telemetry:
     mission_count: int
     """With home where that is item 0."""
     target_ned_m: Vec3 | None
+    region_ned_m: Vec3 | None
+    """The region of interest."""
     fence_breach: str
     """What of the fence is crossed, in words; empty while nothing is."""
     fence_breaches: int
@@ -201,12 +203,13 @@ class Autopilot(Protocol):
 
     def set_origin(self, latitude_deg: float, longitude_deg: float, altitude_m: float) -> bool: ...
 
-    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float) -> None:
-        """MANUAL_CONTROL or RC override: -1 to 1 each, throttle 0 to 1."""
+    def manual(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> bool:
+        """MANUAL_CONTROL or RC override of the station `sysid`: -1 to 1 each, throttle 0 to 1. Whether its sticks count
+        at all."""
         ...
 
-    def heard_station(self, now_s: float) -> None:
-        """A heartbeat of any ground station came."""
+    def heard_station(self, now_s: float, sysid: int) -> None:
+        """A heartbeat of the ground station `sysid` came."""
         ...
 
     def params(self) -> list[Param]:

@@ -14,9 +14,9 @@ LOITER_TO_HEIGHT, SPLINE, LAND_START, GATE = 31, 82, 189, 4501
 """MAV_CMD."""
 FLOWN_TO = frozenset({WAYPOINT, LOITER, LOITER_TURNS, LOITER_TIME, LAND, TAKEOFF, LOITER_TO_HEIGHT, SPLINE})
 AT_A_PLACE = FLOWN_TO | {REGION_AT, GATE}
-PAYLOAD = frozenset({203, 204, 205, 206, 530, 1000, 1001, 2000, 2001})
-"""Digicam, mount configure and control, pictures by distance, camera mode, gimbal angles, who controls it, pictures and
-their end. Handed on to camera and gimbal, who have looked at the numbers when they were uploaded."""
+PAYLOAD = frozenset({203, 204, 205, 206, 214, 530, 531, 1000, 1001, 2000, 2001, 2003})
+"""Digicam, mount configure and control, pictures by distance and by interval, camera mode, zoom, gimbal angles, who
+controls it, pictures, their end and the trigger. Handed on to camera and gimbal, who have looked at the numbers when they were uploaded."""
 _WITHOUT = frozenset({RETURN, DELAY, YAW, JUMP, SPEED, SET_HOME, REGION_NONE, REGION, LAND_START})
 _STOPS = frozenset({RETURN, DELAY, JUMP, TAKEOFF})
 ACCEPTED, ERROR, FRAME, UNSUPPORTED, NO_SPACE = 0, 1, 2, 3, 4

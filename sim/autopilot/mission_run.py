@@ -139,7 +139,7 @@ class MissionRun:
         if item.command == GATE:
             onward = self._onward(now, now.here[2]) or now.here
             return Gate(target, Travel(onward, now.quantity("acceptance_m"), self._nose(item, onward, now)))
-        target = _above_floor(target, now)
+        target = now.below_ceiling(now.above_floor(target))
         if item.command == LOITER_TO_HEIGHT:
             radius = now.quantity("acceptance_m")
             return ThenHeight(Travel((target[0], target[1], now.here[2]), radius), Travel(target, REACHED_M))
@@ -163,7 +163,7 @@ class MissionRun:
         found = None if item is None else spot(item, now)
         if item is None or not isinstance(found, tuple):
             return None
-        return _above_floor((found[0], found[1], down_m if item.command == LAND else found[2]), now)
+        return now.below_ceiling(now.above_floor((found[0], found[1], down_m if item.command == LAND else found[2])))
 
     def _leaving(self, target: Vec3, now: Situation) -> Vec3:
         """The slope of a spline at its end."""
@@ -197,8 +197,3 @@ class MissionRun:
         else:
             found = None if item.command == REGION_NONE else spot(item, now)
             now.region_ned_m = found if isinstance(found, tuple) else None
-
-
-def _above_floor(place: Vec3, now: Situation) -> Vec3:
-    """The place between floor and ceiling."""
-    return now.below_ceiling((place[0], place[1], min(place[2], -0.2)))

@@ -19,7 +19,10 @@ _FASTEST_MPS = 20.0
 
 def named_place(now: Situation, command: Command, what: str) -> Vec3 | Answer:
     """Local NED of the place that a command names, or why `what` is refused."""
-    found = place(_frame(command), command.x, command.y, command.z, now.origin, now.home, now.here)
+    frame = _frame(command)
+    if frame in GLOBAL_FRAMES and command.id in now.row.above_sea_level:
+        frame = 0
+    found = place(frame, command.x, command.y, command.z, now.origin, now.home, now.here)
     if found is None:
         return Answer(Ack.UNSUPPORTED_FRAME)
     return Answer(Ack.DENIED, f"{what} refused: {found}") if isinstance(found, str) else found
@@ -227,7 +230,7 @@ def _target(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:
     if _frame(command) in GLOBAL_FRAMES and now.origin is None and math.isnan(command.x) and math.isnan(command.y):
         command = replace(command, frame=1, z=math.nan)
     found = named_place(now, command, name)
-    return found if isinstance(found, Answer) else (found[0], found[1], min(found[2], -0.2))
+    return found if isinstance(found, Answer) else now.above_floor(found)
 
 
 def _destination(conduct: Conduct, command: Command, name: str) -> Vec3 | Answer:

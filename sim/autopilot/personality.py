@@ -14,6 +14,17 @@ Quantity = Literal[
 
 
 @dataclass(frozen=True, slots=True)
+class Listed:
+    """One mode as ground stations are told of it."""
+
+    custom_mode: int
+    name: str
+    standard: int = 0
+    """MAV_STANDARD_MODE; 0 where it is none of them."""
+    advanced: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Personality:
     """What one firmware calls things and which of two habits it has."""
 
@@ -53,6 +64,10 @@ class Personality:
     """The result when there is no such mode."""
     inclusions: Literal["all", "any"]
     """Whether it must stay inside all of the fence's inclusions or inside any."""
+    above_sea_level: frozenset[int]
+    """MAV_CMD whose altitude in a global frame is taken for one above mean sea level, whatever the frame says."""
+    listed: tuple[Listed, ...]
+    """The modes that it tells ground stations of, in this order; none where it does not know that protocol."""
     quantities: dict[Quantity, tuple[str, float]]
     """The parameter that holds each, and the factor to SI units."""
     params: tuple[Param, ...]
@@ -108,6 +123,8 @@ ARDUPILOT = Personality(
     unknown_items=frozenset({4501}),  # CONDITION_GATE
     unknown_mode=Ack.FAILED,
     inclusions="all",
+    above_sea_level=frozenset({34}),  # DO_ORBIT, as MAVSDK sends it: in a relative frame
+    listed=(),
     quantities={
         "cruise_mps": ("WPNAV_SPEED", 0.01),
         "fastest_mps": ("WPNAV_SPEED", 0.01),
@@ -149,6 +166,19 @@ PX4 = Personality(
     unknown_items=frozenset({82}),  # NAV_SPLINE_WAYPOINT
     unknown_mode=Ack.DENIED,
     inclusions="any",
+    above_sea_level=frozenset({34, 195}),  # and DO_SET_ROI_LOCATION: PX4 does not look at the frame
+    listed=(
+        Listed(px4_mode(1), "Manual", advanced=True),
+        Listed(px4_mode(2), "Altitude", standard=4),
+        Listed(px4_mode(3), "Position", standard=1),
+        Listed(px4_mode(4, 4), "Mission", standard=6),
+        Listed(px4_mode(4, 3), "Hold"),
+        Listed(px4_mode(4, 5), "Return", standard=5),
+        Listed(px4_mode(4, 2), "Takeoff", standard=8),
+        Listed(px4_mode(4, 6), "Land", standard=7),
+        Listed(px4_mode(6), "Offboard", advanced=True),
+        Listed(px4_mode(7), "Stabilized", advanced=True),
+    ),
     quantities={
         "cruise_mps": ("MPC_XY_CRUISE", 1.0),
         "fastest_mps": ("MPC_XY_VEL_MAX", 1.0),

@@ -9,7 +9,9 @@ from sim.autopilot.phase import landing, taking_off
 
 _CUSTOM, _AUTO, _GUIDED, _STABILIZED, _MANUAL, _ARMED = 1, 4, 8, 16, 64, 128
 """MAV_MODE_FLAG."""
-_BASE: dict[Mode, int] = {"stabilize": _MANUAL, "position": _MANUAL | _GUIDED, "mission": _AUTO | _GUIDED}
+_BY_STICKS: frozenset[Mode] = frozenset({"stabilize", "position"})
+_SELF_LEVELLED: frozenset[Mode] = frozenset({"stabilize", "land"})
+"""ArduCopter's modes that are not called guided."""
 _STANDBY, _ACTIVE, _CRITICAL = 3, 4, 5
 _ON_GROUND, _IN_AIR, _TAKING_OFF, _LANDING = 1, 2, 3, 4
 
@@ -29,7 +31,7 @@ def report(conduct: Conduct, now_s: float) -> Telemetry:
     return Telemetry(
         now_s=now_s,
         armed=now.armed,
-        base_mode=_CUSTOM | _STABILIZED | _BASE.get(now.mode, _GUIDED | _AUTO) | (_ARMED if now.armed else 0),
+        base_mode=_CUSTOM | _STABILIZED | _kind(now.row.name, now.mode) | (_ARMED if now.armed else 0),
         custom_mode=now.custom_mode,
         system_status=status,
         landed_state=landed,
@@ -49,7 +51,15 @@ def report(conduct: Conduct, now_s: float) -> Telemetry:
         mission_current=mission.current,
         mission_count=max(len(mission.items), mission.first),
         target_ned_m=getattr(activity, "place_ned_m", None) if now.armed else None,
+        region_ned_m=now.region_ned_m,
         fence_breach=watch.breach,
         fence_breaches=watch.breaches,
         fence_breached_s=watch.breached_s,
     )
+
+
+def _kind(firmware: str, mode: Mode) -> int:
+    """Of the flags of a mode, those that either firmware sets."""
+    if firmware == "ardupilot":
+        return _MANUAL if mode in _SELF_LEVELLED else _MANUAL | _GUIDED
+    return _MANUAL if mode in _BY_STICKS else _GUIDED | _AUTO

@@ -14,6 +14,8 @@ CLEARANCE_M = 0.4
 """Nothing is aimed at higher than this below the ceiling."""
 LOWEST_FLIGHT_M = 0.3
 """Take-off and return go at least this high."""
+LOWEST_PLACE_M = 0.2
+"""No place to fly to lies lower than this above the floor."""
 
 
 @dataclass(slots=True)
@@ -40,7 +42,9 @@ class Situation:
     speed_mps: float | None = None
     """Asked for by DO_CHANGE_SPEED; None: the parameter's."""
     region_ned_m: Vec3 | None = None
-    """The region of interest: the nose points there."""
+    """The region of interest."""
+    nose_to_region: bool = False
+    """The nose points there: it has no gimbal that would."""
     payload: list[Command] = field(default_factory=list)
     """What the mission wants of camera and gimbal, not handed on yet."""
     said: list[tuple[Severity, str]] = field(default_factory=list)
@@ -81,6 +85,11 @@ class Situation:
         north, east, _ = self.here
         return min((self.home, *self.rally_ned_m), key=lambda point: math.hypot(point[0] - north, point[1] - east))
 
+    @staticmethod
+    def above_floor(point: Vec3) -> Vec3:
+        """The point, raised off the floor where it must be."""
+        return point[0], point[1], min(point[2], -LOWEST_PLACE_M)
+
     def below_ceiling(self, point: Vec3) -> Vec3:
         """The point, lowered below the ceiling where it must be."""
         return point[0], point[1], max(point[2], self.top_down_m)
@@ -97,8 +106,8 @@ class Situation:
         return -max(self.ceiling_m - CLEARANCE_M, LOWEST_FLIGHT_M)
 
     def towards_region(self) -> float | None:
-        """Heading to the region of interest; None without one or right above it."""
-        if self.region_ned_m is None:
+        """Heading to the region of interest; None without one, right above it, or where the gimbal looks there."""
+        if self.region_ned_m is None or not self.nose_to_region:
             return None
         north, east = self.region_ned_m[0] - self.here[0], self.region_ned_m[1] - self.here[1]
         return math.atan2(east, north) if math.hypot(north, east) > 0.2 else None

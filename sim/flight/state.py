@@ -76,6 +76,8 @@ class Battery:
     consumed_mah: float = 0.0
     remaining: float = 1.0
     """Part of the capacity, 0 to 1."""
+    left_s: float | None = None
+    """How long that lasts at what is drawn of late; None while the rotors rest."""
 
 
 @dataclass(slots=True)

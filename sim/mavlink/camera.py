@@ -1,4 +1,4 @@
-"""The vehicle's camera as a component of its own: what it is, what it holds, and pictures as it is told."""
+"""The vehicle's camera as a component of its own: what it is, what it holds, pictures and zoom as it is told."""
 
 import math
 
@@ -11,18 +11,19 @@ from sim.mavlink.gimbal import GIMBAL
 from sim.mavlink.pack import boot_ms, boot_us
 from sim.mavlink.peer import Message
 from sim.mavlink.shutter import Series, Spacing
+from sim.mavlink.zoom import SENSOR_MM, WIDEST_MM, ZOOM_KINDS, Zoom
 
 CAMERA = 100
 WIDTH_PX, HEIGHT_PX = 640, 480
-FOCAL_MM, SENSOR_MM = 3.0, (3.68, 2.76)
 CAPACITY_MIB = 16384.0
 PICTURE_MIB = 0.25
 LONGEST_S, MOST_PICTURES, FARTHEST_M = 86_400.0, 10_000, 10_000.0
 PICTURES, SURVEY = 0.0, 2.0
 """CAMERA_MODE; a survey is pictures as well."""
 SHOOT = 1.0
-FLAGS = 2
-"""CAMERA_CAP_FLAGS_CAPTURE_IMAGE."""
+FLAGS = 0x2 | 0x4 | 0x20 | 0x40
+"""CAMERA_CAP_FLAGS: takes images, has modes, one of them for surveys, has a zoom."""
+NOWHERE = 2**31 - 1
 
 
 def _padded(text: str, length: int) -> bytes:
@@ -39,7 +40,12 @@ class Camera:
         self._taken = 0
         self._series = Series()
         self._spacing = Spacing()
+        self._cycle = Series()
+        """The trigger, at its interval."""
+        self._cycle_s, self._triggers, self._by_mission = 0.0, True, False
         self._mode = PICTURES
+        self.zoom = Zoom()
+        self._last_s = 0.0
         self._beat_s = -math.inf
 
     def step(self, now_s: float) -> None:
@@ -48,17 +54,27 @@ class Camera:
             self._beat_s = now_s
             beat = mav.MAVLink_heartbeat_message(mav.MAV_TYPE_CAMERA, mav.MAV_AUTOPILOT_INVALID, 0, 0, 4, 3)
             self._craft.broadcast(beat, CAMERA)
+        span_s, self._last_s = min(max(now_s - self._last_s, 0.0), 0.5), now_s
+        if self.zoom.step(span_s) and self._craft.camera:
+            self._craft.broadcast(self._settings(now_s), CAMERA)
         if self._series.due(now_s):
+            self._take(now_s)
+        if self._cycle.due(now_s) and self._goes_on(self._by_mission, now_s):
             self._take(now_s)
         if self._spacing.every_m and self._far_enough(now_s):
             self._take(now_s)
 
-    def _far_enough(self, now_s: float) -> bool:
+    def _goes_on(self, by_mission: bool, now_s: float) -> bool:
         """PX4 takes what a mission asked for only as long as it flies the mission; ArduCopter goes on."""
-        now, row = self._craft.autopilot.telemetry(now_s), self._craft.personality
-        if self._spacing.by_mission and row.name == "px4" and row.mode(now.custom_mode) != "mission":
-            return False
-        return motion.usable(now) and self._spacing.due(now.estimate.position_ned_m)
+        row = self._craft.personality
+        if not by_mission or row.name != "px4":
+            return True
+        return row.mode(self._craft.autopilot.telemetry(now_s).custom_mode) == "mission"
+
+    def _far_enough(self, now_s: float) -> bool:
+        now = self._craft.autopilot.telemetry(now_s)
+        fine = motion.usable(now) and self._goes_on(self._spacing.by_mission, now_s)
+        return fine and self._spacing.due(now.estimate.position_ned_m)
 
     def _take(self, now_s: float) -> None:
         good = self._craft.capture()
@@ -86,6 +102,13 @@ class Camera:
                 return 0 if second in (PICTURES, SURVEY) else 2
             case mav.MAV_CMD_DO_SET_CAM_TRIGG_DIST:
                 return 0 if math.isnan(first) or -1 <= first <= FARTHEST_M else 1
+            case mav.MAV_CMD_DO_SET_CAM_TRIGG_INTERVAL:
+                return 0 if math.isnan(first) or first == -1 or 0 <= first <= 1000 * LONGEST_S else 1
+            case mav.MAV_CMD_DO_TRIGGER_CONTROL:
+                return 0 if first in (-1, 0, 1) or math.isnan(first) else 1
+            case mav.MAV_CMD_SET_CAMERA_ZOOM:
+                known = first in ZOOM_KINDS
+                return (2 if known else 1) if self.zoom.target(first, second) is None else 0
             case mav.MAV_CMD_DO_DIGICAM_CONTROL | mav.MAV_CMD_IMAGE_STOP_CAPTURE:
                 return 0
         return None
@@ -110,9 +133,30 @@ class Camera:
                 self._spacing.start(0.0 if math.isnan(first) else first, who == (self._craft.sysid, AUTOPILOT))
                 if first > 0 and third == 1:
                     self._take(now_s)
+            case mav.MAV_CMD_DO_SET_CAM_TRIGG_INTERVAL:
+                self._set_cycle(first, who == (self._craft.sysid, AUTOPILOT), now_s)
+            case mav.MAV_CMD_DO_TRIGGER_CONTROL if first >= 0:
+                self._triggers = first == 1
+                self._run_cycle(now_s)
+            case mav.MAV_CMD_SET_CAMERA_ZOOM:
+                level = self.zoom.target(first, second)
+                assert level is not None
+                self.zoom.go(level)
             case mav.MAV_CMD_DO_DIGICAM_CONTROL if command.x == SHOOT:
                 self._take(now_s)
         return Ack.ACCEPTED
+
+    def _set_cycle(self, every_ms: float, by_mission: bool, now_s: float) -> None:
+        """From one trigger to the next; 0 for none, negative or NaN for as it is."""
+        if every_ms >= 0:
+            self._cycle_s, self._by_mission = every_ms / 1000, by_mission
+            self._run_cycle(now_s)
+
+    def _run_cycle(self, now_s: float) -> None:
+        if self._triggers and self._cycle_s:
+            self._cycle.start(0, self._cycle_s, now_s)
+        else:
+            self._cycle.stop()
 
     def command(self, command: Command, sender: Sender, now_s: float) -> Ack | None:
         """What it is told, and the older requests that ask for one message each."""
@@ -124,6 +168,17 @@ class Camera:
         self._craft.reply(sender, message, CAMERA)
         return Ack.ACCEPTED
 
+    def _settings(self, now_s: float) -> Message:
+        return mav.MAVLink_camera_settings_message(boot_ms(now_s), int(self._mode), self.zoom.level, math.nan, 0)
+
+    def _view(self, now_s: float) -> Message:
+        """What the picture spans; where it lies on the ground is not told."""
+        now = self._craft.autopilot.telemetry(now_s)
+        nowhere = (NOWHERE,) * 3
+        there = motion.place(now.origin, now.estimate.position_ned_m) if now.origin and motion.usable(now) else nowhere
+        turned = [math.nan] * 4
+        return mav.MAVLink_camera_fov_status_message(boot_ms(now_s), *there, *nowhere, turned, *self.zoom.view_deg)
+
     def message(self, message_id: int, sender: Sender, now_s: float) -> Message | None:
         at_ms = boot_ms(now_s)
         used = self._taken * PICTURE_MIB
@@ -132,10 +187,12 @@ class Camera:
             vendor, model = (list(_padded(text, 32).ljust(32, b"\0")) for text in ("R2X", "Simulated camera"))
             size = (*SENSOR_MM, WIDTH_PX, HEIGHT_PX)
             return mav.MAVLink_camera_information_message(
-                at_ms, vendor, model, 1, FOCAL_MM, *size, 0, FLAGS, 0, b"", GIMBAL, 0
+                at_ms, vendor, model, 1, WIDEST_MM, *size, 0, FLAGS, 0, b"", GIMBAL, 0
             )
         if message_id == mav.MAVLINK_MSG_ID_CAMERA_SETTINGS:
-            return mav.MAVLink_camera_settings_message(at_ms, int(self._mode), math.nan, math.nan, 0)
+            return self._settings(now_s)
+        if message_id == mav.MAVLINK_MSG_ID_CAMERA_FOV_STATUS:
+            return self._view(now_s)
         if message_id == mav.MAVLINK_MSG_ID_STORAGE_INFORMATION:
             space = (CAPACITY_MIB, used, free, math.nan, math.nan)
             return mav.MAVLink_storage_information_message(at_ms, 1, 1, 2, *space, 0, b"memory", 0)

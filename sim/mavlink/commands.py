@@ -8,8 +8,9 @@ from typing import Protocol
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
 from sim.autopilot.interface import Ack, Answer, Command
-from sim.mavlink import streams
+from sim.mavlink import modes, newer, streams
 from sim.mavlink.craft import AUTOPILOT, Craft, Sender
+from sim.mavlink.gimbal import REGIONS
 from sim.mavlink.items import scale
 from sim.mavlink.pack import i32
 from sim.mavlink.payload import Payload
@@ -65,9 +66,11 @@ class Commands:
             mav.MAV_CMD_SET_MESSAGE_INTERVAL: self._set_interval,
             mav.MAV_CMD_GET_MESSAGE_INTERVAL: self._get_interval,
             mav.MAV_CMD_REQUEST_MESSAGE: self._request,
-            mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: self._capabilities,
+            mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES: self._asked_of,
+            mav.MAV_CMD_REQUEST_PROTOCOL_VERSION: self._asked_of,
             mav.MAV_CMD_GET_HOME_POSITION: self._home,
             mav.MAV_CMD_DO_SET_MODE: self._set_mode,
+            mav.MAV_CMD_DO_SET_STANDARD_MODE: self._set_standard_mode,
         }
 
     def handle(self, message: Message, sender: Sender, now_s: float) -> None:
@@ -98,8 +101,13 @@ class Commands:
     def _follow_up(self, command: Command, sender: Sender, now_s: float) -> None:
         """What was asked for goes out after the acknowledgement."""
         match command.id:
+            case mav.MAV_CMD_REQUEST_MESSAGE if command.params[0] == newer.AVAILABLE_MODES:
+                for message in self._modes(command):
+                    self._craft.reply(sender, message)
             case mav.MAV_CMD_REQUEST_MESSAGE:
                 self._send(int(command.params[0]), sender, now_s)
+            case mav.MAV_CMD_REQUEST_PROTOCOL_VERSION:
+                self._send(newer.PROTOCOL_VERSION, sender, now_s)
             case mav.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES:
                 self._send(streams.VERSION, sender, now_s)
             case mav.MAV_CMD_GET_HOME_POSITION:
@@ -130,7 +138,7 @@ class Commands:
 
     def _camera_takes(self, command: Command, sender: Sender, now_s: float) -> bool:
         """A command to all components, taken by the first that knows it."""
-        for component in self._components:
+        for component in self._components if command.id not in REGIONS else ():
             result = component.command(command, sender, now_s)
             if result is not None:
                 self._ack(command.id, result, sender, compid=component.compid)
@@ -157,7 +165,9 @@ class Commands:
 
     def _request(self, command: Command, sender: Sender, now_s: float) -> Answer:
         wanted = number(command.params[0])
-        if wanted not in streams.MESSAGES:
+        if wanted == newer.AVAILABLE_MODES and self._craft.personality.listed:
+            return Answer(Ack.ACCEPTED if self._modes(command) else Ack.DENIED)
+        if wanted is None or not streams.has(self._craft, wanted):
             return Answer(Ack.UNSUPPORTED)
         if wanted == streams.HOME:
             self._craft.home_asked = True
@@ -173,7 +183,8 @@ class Commands:
         """What REQUEST_MESSAGE of HOME_POSITION has replaced; MAVROS and older stations still send it."""
         return self._request(replace(command, params=(float(streams.HOME), 0.0, 0.0, 0.0)), sender, now_s)
 
-    def _capabilities(self, command: Command, sender: Sender, now_s: float) -> Answer:
+    def _asked_of(self, command: Command, sender: Sender, now_s: float) -> Answer:
+        """The older requests for one message, which is asked for by a 1."""
         return Answer(Ack.ACCEPTED if command.params[0] == 1 else Ack.DENIED)
 
     def _set_mode(self, command: Command, sender: Sender, now_s: float) -> Answer:
@@ -185,6 +196,21 @@ class Commands:
         if self._craft.personality.name == "px4":
             main = (main & 0xFF) << 16 | (sub & 0xFF) << 24
         return self._craft.autopilot.set_mode(base, main, now_s)
+
+    def _modes(self, command: Command) -> list[Message]:
+        """Those that a request asks for: of one number, or of all."""
+        index = number(0.0 if math.isnan(command.params[1]) else command.params[1])
+        return [] if index is None else modes.available(self._craft, index)
+
+    def _set_standard_mode(self, command: Command, sender: Sender, now_s: float) -> Answer:
+        """Param 1 is a MAV_STANDARD_MODE."""
+        rows = self._craft.personality.listed
+        if not rows:
+            return Answer(Ack.UNSUPPORTED)
+        row = next((each for each in rows if each.standard and each.standard == command.params[0]), None)
+        if row is None:
+            return Answer(Ack.DENIED, f"Mode change refused: there is no standard mode {command.params[0]:g}")
+        return self._craft.autopilot.set_mode(mav.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, row.custom_mode, now_s)
 
     def set_mode(self, message: Message, sender: Sender, now_s: float) -> None:
         """SET_MODE, the message: ArduPilot acknowledges it like the command."""

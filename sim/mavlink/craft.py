@@ -1,5 +1,6 @@
 """One vehicle on the wire: its autopilot, its ids, and to whom it speaks."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import count
@@ -12,6 +13,9 @@ from sim.mavlink.peer import Message, Peer
 
 AUTOPILOT = 1
 """MAV_COMP_ID_AUTOPILOT1."""
+RESTING_US = (1500, 1500, 1000, 1500)
+OVERRIDE_S = 3.0
+"""So long sticks that were overridden count."""
 TEXT_BYTES = 50
 TEXT_EVERY_S = 1.0
 """The same text, said because of somebody's input, is not said again sooner."""
@@ -41,6 +45,10 @@ class Craft:
     """Whether a camera and a gimbal show themselves as components; dronekit takes any heartbeat for the autopilot's.
     Missions use them all the same."""
     home_asked: bool = False
+    pulses_us: tuple[int, int, int, int] = RESTING_US
+    """What roll, pitch, throttle and yaw were overridden with last."""
+    pulses_s: float = -math.inf
+    """When that was."""
     last_reached: int | None = None
     """The mission item reached last."""
     _said: dict[str, float] = field(default_factory=dict)
@@ -49,6 +57,10 @@ class Craft:
     @property
     def sysid(self) -> int:
         return self.autopilot.sysid
+
+    def sticks_us(self, now_s: float) -> tuple[int, int, int, int]:
+        """As a receiver has them."""
+        return self.pulses_us if now_s - self.pulses_s < OVERRIDE_S else RESTING_US
 
     def reply(self, to: Sender, message: Message, compid: int = AUTOPILOT) -> None:
         to.peer.send(message, self.sysid, compid)

@@ -52,6 +52,9 @@ class Upload:
     asked_s: float
     tries: int = 0
     items: list[Item] = field(default_factory=list)
+    """Where a part of a plan is written, what stands before it is here from the start."""
+    rest: list[Item] = field(default_factory=list)
+    """What stands behind that part."""
 
 
 class Missions:
@@ -95,13 +98,31 @@ class Missions:
             return
         upload = Upload(sender, kind, message.count, now_s)
         if upload.count == 0:
-            self._finish(upload)
+            self._finish(upload, now_s)
             return
         self._upload = upload
         self._ask(upload, now_s)
 
-    def _finish(self, upload: Upload) -> None:
-        result = self._craft.autopilot.accept_plan(upload.kind, upload.items)
+    def part(self, message: Message, sender: Sender, now_s: float) -> None:
+        """MISSION_WRITE_PARTIAL_LIST: some items of the plan that there is are written anew. PX4 does not know it."""
+        if self._craft.personality.name == "px4":
+            return
+        kind = self._known(message, sender)
+        if kind is None:
+            return
+        plan, first, last = self._craft.autopilot.plan(kind), message.start_index, message.end_index
+        if not 0 <= first <= last < len(plan) or self._upload is not None:
+            self._ack(sender, mav.MAV_MISSION_ERROR, kind)
+            self._craft.complain(f"{NAMES[kind]}: no items {first} to {last} to be written anew", now_s)
+            return
+        self._upload = Upload(sender, kind, last + 1, now_s, items=plan[:first], rest=plan[last + 1 :])
+        self._ask(self._upload, now_s)
+
+    def _finish(self, upload: Upload, now_s: float) -> None:
+        current = self._craft.autopilot.telemetry(now_s).mission_current
+        result = self._craft.autopilot.accept_plan(upload.kind, upload.items + upload.rest)
+        if upload.rest and upload.kind == 0 and not result:
+            self._craft.autopilot.set_current(current)
         self._ack(upload.sender, result, upload.kind)
         if upload.kind == 0 and not result:
             self._craft.last_reached = None
@@ -139,7 +160,7 @@ class Missions:
             self._ask(upload, now_s)
         else:
             self._upload = None
-            self._finish(upload)
+            self._finish(upload, now_s)
 
     def _check(self, kind: Plan, item: Item) -> int:
         if any(abs(value) == float("inf") for value in (*item.params, item.x, item.y, item.z)):

@@ -13,13 +13,14 @@ from sim.mavlink.gimbal import GIMBAL
 from sim.mavlink.missions import Missions
 from sim.mavlink.params import Params
 from sim.mavlink.payload import Payload
-from sim.mavlink.peer import Message, Peer
+from sim.mavlink.peer import Message, Peer, badly_signed
 from sim.mavlink.setpoints import Setpoints
 from sim.mavlink.streams import Rates
 
 Handler = Callable[[Message, Sender, float], None]
 COMMANDS = (mav.MAVLINK_MSG_ID_COMMAND_LONG, mav.MAVLINK_MSG_ID_COMMAND_INT)
 UNSIGNED = "Unsigned command refused: sign it with the key"
+BADLY_SIGNED = "Wrong key or repeated signature, ignored: system"
 
 
 class Node:
@@ -46,6 +47,7 @@ class Node:
             mav.MAVLINK_MSG_ID_PARAM_REQUEST_READ: params.read,
             mav.MAVLINK_MSG_ID_PARAM_SET: params.set,
             mav.MAVLINK_MSG_ID_MISSION_COUNT: missions.count,
+            mav.MAVLINK_MSG_ID_MISSION_WRITE_PARTIAL_LIST: missions.part,
             mav.MAVLINK_MSG_ID_MISSION_ITEM: missions.item,
             mav.MAVLINK_MSG_ID_MISSION_ITEM_INT: missions.item,
             mav.MAVLINK_MSG_ID_MISSION_ACK: missions.ack,
@@ -65,6 +67,7 @@ class Node:
             mav.MAVLINK_MSG_ID_RC_CHANNELS_OVERRIDE: setpoints.channels,
             mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_ATTITUDE: gimbal.set_attitude,
             mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_PITCHYAW: gimbal.set_pitch_yaw,
+            mav.MAVLINK_MSG_ID_GIMBAL_MANAGER_SET_MANUAL_CONTROL: gimbal.set_by_sticks,
             mav.MAVLINK_MSG_ID_TIMESYNC: self._plain(upkeep.timesync),
             mav.MAVLINK_MSG_ID_PING: self._plain(upkeep.ping),
             mav.MAVLINK_MSG_ID_FILE_TRANSFER_PROTOCOL: self._plain(upkeep.refuse_file),
@@ -102,8 +105,12 @@ class Node:
         handler(message, sender, now_s)
 
     def _unsigned(self, message: Message, sender: Sender, now_s: float) -> None:
+        """Both firmwares let be what is signed wrongly; that somebody tries it is said."""
         kind = message.get_msgId()
         if kind in (mav.MAVLINK_MSG_ID_HEARTBEAT, mav.MAVLINK_MSG_ID_TIMESYNC, mav.MAVLINK_MSG_ID_PING):
+            return
+        if badly_signed(message):
+            self.craft.complain(f"{BADLY_SIGNED} {sender.sysid}", now_s)
             return
         if kind in COMMANDS:
             ack = (message.command, int(Ack.DENIED), 0, 0, sender.sysid, sender.compid)
@@ -112,7 +119,7 @@ class Node:
 
     def _heartbeat(self, message: Message, sender: Sender, now_s: float) -> None:
         if message.type == mav.MAV_TYPE_GCS:
-            self.craft.autopilot.heard_station(now_s)
+            self.craft.autopilot.heard_station(now_s, sender.sysid)
 
     def _data_stream(self, message: Message, sender: Sender, now_s: float) -> None:
         self.rates(sender.peer).ask_group(message.req_stream_id, message.req_message_rate, message.start_stop == 1)

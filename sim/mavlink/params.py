@@ -91,7 +91,9 @@ class Params:
         param = self._craft.autopilot.params()[index]
         value = self._decoded(message, param)
         if value is None:
-            answer: Param | str = f"{param.name}: type {message.param_type} is not one that it can be set with."
+            answer: Param | str = (
+                f"{param.name} is set with type {6 if param.integer else 9}, not {message.param_type}."
+            )
         elif not math.isfinite(value):
             answer = f"{param.name}: the value is not a finite number."
         else:
@@ -109,6 +111,8 @@ class Params:
         if self._craft.personality.param_encoding == "cast":
             return value
         kind = INT_TYPES.get(message.param_type)
+        if (kind is not None) != param.integer:  # PX4 writes nothing then
+            return None
         if kind is not None:
             return float(bits_int(value, kind))
         return value if message.param_type == mav.MAV_PARAM_TYPE_REAL32 else None

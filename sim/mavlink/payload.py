@@ -13,6 +13,8 @@ OLDER = frozenset(
         mav.MAV_CMD_DO_MOUNT_CONFIGURE,
         mav.MAV_CMD_DO_MOUNT_CONTROL,
         mav.MAV_CMD_DO_SET_CAM_TRIGG_DIST,
+        mav.MAV_CMD_DO_SET_CAM_TRIGG_INTERVAL,
+        mav.MAV_CMD_DO_TRIGGER_CONTROL,
     }
 )
 """From before there were components: ground stations send them to the autopilot."""

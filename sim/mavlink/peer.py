@@ -33,6 +33,29 @@ class Signing:
         parser.signing.sign_outgoing = True
 
 
+class Codec(mav.MAVLink):  # type: ignore[misc]
+    """The dialect's parser, whose record of signatures is written by good ones only.
+
+    It would note the time of a signature before it looks at it: anybody without the key could then stamp a frame with
+    the far future, and the owner of the key would be taken for a repeat from there on.
+    """
+
+    def check_signature(self, frame: bytearray, sysid: int, compid: int) -> bool:
+        sender, seen = (frame[-13], sysid, compid), self.signing.stream_timestamps
+        before = seen.get(sender)
+        good = bool(super().check_signature(frame, sysid, compid))
+        if not good and before is None:
+            seen.pop(sender, None)
+        elif not good:
+            seen[sender] = before
+        return good
+
+
+def badly_signed(message: Message) -> bool:
+    """It carries a signature, by another key or of a time that has been."""
+    return bool(message.get_header().incompat_flags & mav.MAVLINK_IFLAG_SIGNED) and not message.get_signed()
+
+
 @dataclass(slots=True)
 class Counts:
     """What came and went, for the one line that is logged now and then."""
@@ -60,7 +83,7 @@ class Peer:
         return self._signing is not None
 
     def _codec(self, sysid: int, compid: int) -> mav.MAVLink:
-        codec = mav.MAVLink(None, sysid, compid)
+        codec = Codec(None, sysid, compid)
         codec.robust_parsing = True
         if self._signing is not None:
             self._signing.apply(codec, self._link_id)

@@ -124,16 +124,20 @@ class Setpoints:
         roll, pitch, throttle, yaw = (0.0 if axis == STICK_UNUSED else axis / 1000 for axis in axes)
         if message.z == STICK_UNUSED:
             throttle = 0.5
-        self._sticks(roll, pitch, throttle, yaw, now_s)
+        self._sticks(roll, pitch, throttle, yaw, now_s, sender.sysid)
 
     def channels(self, message: Message, sender: Sender, now_s: float) -> None:
         """RC_CHANNELS_OVERRIDE: microseconds of roll, pitch, throttle and yaw; none of them given means released."""
         pulses = (message.chan1_raw, message.chan2_raw, message.chan3_raw, message.chan4_raw)
         if all(pulse in CHANNEL_UNUSED for pulse in pulses):
+            self._craft.pulses_s = -math.inf
             return
         roll, pitch, throttle, yaw = (0.0 if pulse in CHANNEL_UNUSED else (pulse - 1500) / 500 for pulse in pulses)
-        self._sticks(roll, -pitch, (throttle + 1) / 2, yaw, now_s)
+        if self._sticks(roll, -pitch, (throttle + 1) / 2, yaw, now_s, sender.sysid):
+            given = zip(pulses, self._craft.sticks_us(now_s), strict=True)
+            one, two, three, four = (kept if pulse in CHANNEL_UNUSED else pulse for pulse, kept in given)
+            self._craft.pulses_us, self._craft.pulses_s = (one, two, three, four), now_s
 
-    def _sticks(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float) -> None:
+    def _sticks(self, roll: float, pitch: float, throttle: float, yaw: float, now_s: float, sysid: int) -> bool:
         roll, pitch, yaw = (min(max(axis, -1.0), 1.0) for axis in (roll, pitch, yaw))
-        self._craft.autopilot.manual(roll, pitch, min(max(throttle, 0.0), 1.0), yaw, now_s)
+        return self._craft.autopilot.manual(roll, pitch, min(max(throttle, 0.0), 1.0), yaw, now_s, sysid)

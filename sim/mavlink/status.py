@@ -11,6 +11,7 @@ from sim.mavlink.peer import Message
 
 CELLS = 4
 NO_CELL = 0xFFFF
+UNTOLD = 0
 HEIGHTS = ("ceiling", "maximum altitude")
 """The breaches of a fence that are no matter of where it is across."""
 STANDARD_GRAVITY = 9.80665
@@ -61,6 +62,7 @@ def battery(craft: Craft, now: Telemetry) -> Message:
         i32(now.battery.consumed_mah),
         i32(now.battery.consumed_mah * now.battery.voltage_v * 0.036),
         _percent(now),
+        max(1, i32(now.battery.left_s)) if now.battery.left_s is not None else UNTOLD,
     )
 
 
@@ -96,13 +98,13 @@ def estimator(craft: Craft, now: Telemetry) -> Message:
 
 def rc_raw(craft: Craft, now: Telemetry) -> Message:
     return mav.MAVLink_rc_channels_raw_message(
-        boot_ms(now.now_s), 0, 1500, 1500, 1000, 1500, 1800, 1000, 1000, 1800, 255
+        boot_ms(now.now_s), 0, *craft.sticks_us(now.now_s), 1800, 1000, 1000, 1800, 255
     )
 
 
 def rc(craft: Craft, now: Telemetry) -> Message:
     unused = (NO_CELL,) * 10
-    sticks = (1500, 1500, 1000, 1500, 1800, 1000, 1000, 1800)
+    sticks = (*craft.sticks_us(now.now_s), 1800, 1000, 1000, 1800)
     return mav.MAVLink_rc_channels_message(boot_ms(now.now_s), 8, *sticks, *unused, 255)
 
 

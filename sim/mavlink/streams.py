@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from sim.autopilot.interface import Telemetry
-from sim.mavlink import motion, status
+from sim.mavlink import modes, motion, newer, status
 from sim.mavlink.craft import Craft
 from sim.mavlink.peer import Message
 
@@ -59,14 +59,25 @@ MESSAGES: dict[int, Row] = {
     242: Row(motion.home, 0.5),
     245: Row(status.extended, 2, STATUS),
     264: Row(status.flight, 0),
+    newer.PROTOCOL_VERSION: Row(modes.version, 0),
     331: Row(motion.odometry, 10, POSITION, estimate=True),
+    newer.CURRENT_MODE: Row(modes.current, 0.5),
+    newer.MODES_MONITOR: Row(modes.monitor, 0.3),
 }
+OF_LISTED_MODES = (newer.CURRENT_MODE, newer.MODES_MONITOR)
 ESTIMATORS = {"EKF_STATUS_REPORT": 193, "ESTIMATOR_STATUS": 230}
 HOME, VERSION, CURRENT_MISSION = 242, 148, 42
 
 
+def has(craft: Craft, message_id: int) -> bool:
+    """Whether this firmware has such a message."""
+    return message_id in MESSAGES and (bool(craft.personality.listed) or message_id not in OF_LISTED_MODES)
+
+
 def usual_rate_hz(craft: Craft, message_id: int) -> float:
     """How often this firmware sends it when nobody asks otherwise."""
+    if not has(craft, message_id):
+        return 0.0
     if message_id in ESTIMATORS.values() and ESTIMATORS[craft.personality.estimator_message] != message_id:
         return 0.0
     if message_id == HOME and craft.personality.home_streams == "asked" and not craft.home_asked:
@@ -101,7 +112,7 @@ class Rates:
 
     def ask(self, message_id: int, interval_us: float) -> bool:
         """SET_MESSAGE_INTERVAL: microseconds, 0 for the usual rate, -1 for none. False for what cannot be sent."""
-        if message_id not in MESSAGES or not -1 <= interval_us <= MAX_INTERVAL_US:
+        if not has(self.craft, message_id) or not -1 <= interval_us <= MAX_INTERVAL_US:
             return False
         if interval_us == 0:
             self.asked_s.pop(message_id, None)

@@ -221,3 +221,23 @@ def test_the_same_looks_give_the_same_orders() -> None:
         return [space.rule([d.flyer for d in drones], [], 0.2 * k) for k in range(20)]
 
     assert looks() == looks()
+
+
+def resting_team(seed: int) -> list[Drone]:
+    """Four of them, of whom some want nothing from the start."""
+    rng = random.Random(seed)
+    drones = team(rng, 4)
+    for drone in drones:
+        if rng.random() < 0.4:
+            drone.goal, drone.arrived, drone.begun = drone.at, True, True
+    return drones
+
+
+@pytest.mark.parametrize("seed", [239, 314, 448, 769, *range(20)])
+def test_those_who_want_nothing_make_room_for_those_who_have_nowhere_to_go(seed: int) -> None:
+    """The first seeds once were knots: of one boxed in by idle ones, and of some sent past others to places they kept to."""
+    for levels_m in (LEVELS_M, LEVELS_M[:1]):
+        drones = resting_team(seed)
+        least, steps = play(drones, airspace(levels_m), 3000)
+        assert least > 0.0
+        assert steps < 3000, [(d.id, d.at, d.path, d.aside) for d in drones]

@@ -117,6 +117,15 @@ def test_a_drone_is_sent_as_far_as_its_battery_brings_it_back() -> None:
     assert cost(silent, "drone-1", node)[0] < FORBIDDEN
 
 
+@pytest.mark.parametrize(("endurance_s", "goes"), [(240.0, False), (480.0, False), (1200.0, True), (None, False)])
+def test_what_a_drone_knows_of_its_endurance_goes_before_the_guess(endurance_s: float | None, goes: bool) -> None:
+    node = PlanNode(id="n1", action="inspect_from_above", room="bath")
+    said = flying("drone-1", (2.0, 2.0, 0.0), airborne=False, battery=0.29)
+    price, why = cost(fleet(said.model_copy(update={"endurance_s": endurance_s})), "drone-1", node)
+    assert (price < FORBIDDEN) is goes
+    assert bool(why) is not goes
+
+
 def test_what_needs_hands_is_never_given_to_a_drone() -> None:
     world = fleet(flying("drone-1", (2.0, 2.0, 1.5)))
     assert cost(world, "drone-1", PlanNode(id="n1", action="open", object="fridge-1"))[0] == FORBIDDEN

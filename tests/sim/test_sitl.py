@@ -8,7 +8,8 @@ from math import radians, remainder, tau
 
 import pytest
 
-from sim.sitl import Flight, Sitl, main
+from sim.sitl import main
+from sim.sitl_flight import Flight, Sitl
 from sim.sitl_options import parse
 
 
@@ -51,6 +52,15 @@ def test_bad_arguments_get_a_sentence(arguments, sentence, capsys) -> None:
         parse(arguments)
     assert ended.value.code == 2
     assert sentence in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("arguments", "status"), [(["--help"], 0), (["--vehicles", "0"], 2)])
+def test_help_comes_without_a_simulator(arguments, status) -> None:
+    """PyBullet says when it was built as soon as it is imported."""
+    done = subprocess.run([sys.executable, "-m", "sim.sitl", *arguments], capture_output=True, text=True, timeout=60)
+    assert done.returncode == status
+    assert "--firmware" in done.stdout + done.stderr
+    assert "build time" not in done.stdout + done.stderr
 
 
 def test_port_in_use(capsys) -> None:

@@ -145,6 +145,8 @@ class RobotReport(Message):
     """What is left of it, where the robot can tell."""
     path_heights_m: tuple[float, ...] = Field(default=(), exclude_if=unset)
     """Of what flies: how high it will be at each point of `path_m`."""
+    endurance_s: float | None = Field(default=None, gt=0.0, exclude_if=unset)
+    """How long a full battery lasts at work, where the robot has been told or has learned it."""
 
 
 class TrafficOrder(Message):

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from devices.drone.airspace import Obstacle
+from devices.drone.outlines import Outline
 from devices.drone.pilot import Arm, Found, Hover, Land, Order, Setpoint, Shoot, Steer, TakeOff
 from devices.worker import Outcome
 from tests.devices.drone.scripted import STEP_S, Flown
@@ -38,8 +39,8 @@ ORDERS: tuple[dict[str, object], ...] = (
 )
 THINGS: tuple[dict[str, Obstacle], ...] = (
     {},
-    {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)},
-    {"obj-2": Obstacle((2.0, 2.0), 0.8, 1.2)},
+    {"obj-1": Obstacle(Outline((4.0, 2.0), 0.4), 1.9)},
+    {"obj-2": Obstacle(Outline((2.0, 2.0), 0.8), 1.2)},
 )
 happenings = st.one_of(
     st.tuples(st.just("goal"), st.sampled_from(GOALS)),

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from devices.drone.airspace import Obstacle
+from devices.drone.outlines import Outline
 from devices.drone.pilot import Arm, Found, Said, Steer
 from tests.devices.drone.scripted import Flown, kinds
 from wire.messages.command import Command
@@ -100,7 +101,7 @@ def test_wrong_parameters_are_refused_with_a_sentence(action, fields, words):
 def test_what_stands_in_the_way_is_waited_for_and_named():
     flown = Flown()
     flown.do("take_off")
-    flown.craft.space.obstacles = things = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)}
+    flown.craft.space.obstacles = things = {"obj-1": Obstacle(Outline((4.0, 2.0), 0.4), 1.9)}
     flown.begin("goto", point_m=(7.0, 3.0))
     assert flown.work(5.0) is None
     assert flown.worker.progress[1] == "waiting for the way to (7.0, 3.0) at 1.5 m: obj-1"
@@ -112,7 +113,10 @@ def test_what_stands_in_the_way_is_waited_for_and_named():
 
 def test_what_stays_in_the_way_ends_the_goal():
     flown = Flown()
-    flown.craft.space.obstacles = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9), "obj-2": Obstacle((1.0, 3.5), 0.4, 1.9)}
+    flown.craft.space.obstacles = {
+        "obj-1": Obstacle(Outline((4.0, 2.0), 0.4), 1.9),
+        "obj-2": Obstacle(Outline((1.0, 3.5), 0.4), 1.9),
+    }
     outcome = flown.do("goto", point_m=(7.0, 3.0))
     assert (outcome.code, outcome.reason) == ("blocked", "(7.0, 3.0): obj-1 is in the way")
 
@@ -120,7 +124,7 @@ def test_what_stays_in_the_way_ends_the_goal():
 def test_who_takes_it_by_hand_while_it_waits_for_its_way_is_left_alone():
     flown = Flown()
     flown.do("take_off")
-    flown.craft.space.obstacles = {"obj-1": Obstacle((4.0, 2.0), 0.4, 1.9)}
+    flown.craft.space.obstacles = {"obj-1": Obstacle(Outline((4.0, 2.0), 0.4), 1.9)}
     flown.begin("goto", point_m=(7.0, 3.0))
     flown.work(2.0)
     flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")

@@ -1,7 +1,10 @@
 """A drone that has nothing to do does not hover until its battery is empty."""
 
 from dataclasses import replace
+from math import dist
 
+from devices.drone.airspace import Obstacle
+from devices.drone.outlines import Outline
 from tests.devices.drone.scripted import STEP_S, Flown
 from wire.messages.command import TrafficOrder
 
@@ -24,6 +27,15 @@ def test_it_flies_home_and_lands_after_a_while() -> None:
     orders = len(flown.pilot.orders)
     flown.pause(40.0)
     assert len(flown.pilot.orders) == orders
+
+
+def test_it_lands_where_it_is_when_there_is_no_way_home() -> None:
+    """As when something is wrongly believed to stand in the door."""
+    flown = away(idle_home_s=5.0)
+    flown.craft.space.obstacles = {"obj-1": Obstacle(Outline((4.0, 2.0), 0.9), 1.9)}
+    flown.pause(200.0)
+    assert not flown.craft.airborne
+    assert dist(flown.craft.position_m[:2], (7.0, 3.0)) < 0.5
 
 
 def test_it_hovers_on_where_the_site_says_so() -> None:

@@ -11,6 +11,7 @@ from devices.drone import route
 from devices.drone.airspace import NEEDED_M, Airspace, Obstacle
 from devices.drone.course import Course, along_legs
 from devices.drone.obstacles import Obstacles
+from devices.drone.outlines import Outline
 from devices.drone.route import nearest_open
 from tests.devices.drone.flat import flat
 from tests.devices.rooms import WALLS
@@ -100,7 +101,10 @@ def test_a_door_that_is_too_narrow_is_no_way():
 
 def test_it_goes_around_what_is_high_and_over_what_is_low():
     space = Airspace(flat())
-    space.obstacles = {"fridge-1": Obstacle((2.0, 2.0), 0.5, 1.8), "sofa-1": Obstacle((6.0, 2.0), 1.2, 0.9)}
+    space.obstacles = {
+        "fridge-1": Obstacle(Outline((2.0, 2.0), 0.5), 1.8),
+        "sofa-1": Obstacle(Outline((6.0, 2.0), 1.2), 0.9),
+    }
     way = find_way(space, (1.0, 2.0, 1.5), (3.2, 2.0, 1.5), 1.5)
     assert way is not None
     assert all(dist(p[:2], (2.0, 2.0)) > 0.7 for a, b in pairwise(way) for p in (a, midway(a, b), b))
@@ -117,9 +121,21 @@ def midway(a, b):
 
 def test_it_starts_from_where_it_stands_even_beside_something():
     space = Airspace(flat())
-    space.obstacles = {"fridge-1": Obstacle((1.0, 1.0), 0.5, 1.8)}
+    space.obstacles = {"fridge-1": Obstacle(Outline((1.0, 1.0), 0.5), 1.8)}
     way = find_way(space, (1.6, 1.0, 1.5), (3.0, 3.0, 1.5), 1.5)
     assert (way[0], way[-1]) == ((1.6, 1.0, 1.5), (3.0, 3.0, 1.5))
+
+
+def test_it_leaves_from_within_what_is_wrongly_believed_to_stand_there():
+    """Or else it would hover there until its battery is low."""
+    space = Airspace(flat())
+    space.obstacles = {"fridge-1": Obstacle(Outline((1.6, 1.0), 0.6), 1.8)}
+    for start in ((1.6, 1.0, 1.5), (1.9, 1.2, 1.5)):
+        way = find_way(space, start, (3.0, 3.0, 1.5), 1.5)
+        assert way is not None
+        assert (way[0], way[-1]) == (start, (3.0, 3.0, 1.5))
+    over = find_way(space, (1.6, 1.0, 2.2), (3.0, 3.0, 1.5), 1.5)
+    assert over is None, "it is really there, below"
 
 
 def test_no_wall_is_looked_through():
@@ -142,7 +158,7 @@ def thing(id: str, type: str, height_m: float, confidence: float = 0.9) -> Objec
 
 
 def test_the_hubs_world_says_what_stands_high():
-    obstacles = Obstacles()
+    obstacles = Obstacles(flat().wall)
     known = (thing("fridge-1", "Fridge", 0.92), thing("apple-1", "Apple", 0.9), thing("fridge-2", "Fridge", 0.9, 0.1))
     obstacles.take(WorldState(seq=1, stamp_s=1.0, objects=known))
     assert obstacles.by_id.keys() == {"fridge-1"}

@@ -24,9 +24,9 @@ from tests.sim.autopilot.rig import ardupilot, put
 def test_losing_the_station(rigs, name, parameter, value, mode):
     rig = rigs(name)
     put(rig, **{parameter: value})
-    rig.firmware.heard_station(rig.now_s)
+    rig.firmware.heard_station(rig.now_s, 255)
     rig.take_off(1.0)
-    rig.firmware.heard_station(rig.now_s)
+    rig.firmware.heard_station(rig.now_s, 255)
     rig.fly(4.5)
     assert rig.report.system_status == 4
     rig.fly(6.0)
@@ -45,10 +45,10 @@ def test_losing_the_station(rigs, name, parameter, value, mode):
 
 def test_a_station_that_comes_back_in_time_is_forgiven(rigs):
     rig = rigs("px4")
-    rig.firmware.heard_station(rig.now_s)
+    rig.firmware.heard_station(rig.now_s, 255)
     rig.take_off(1.0)
     rig.fly(11.0)
-    rig.firmware.heard_station(rig.now_s)
+    rig.firmware.heard_station(rig.now_s, 255)
     rig.fly(6.0)
     assert rig.in_mode("hold")
     assert rig.report.armed
@@ -56,7 +56,7 @@ def test_a_station_that_comes_back_in_time_is_forgiven(rigs):
 
 def test_a_station_that_never_was_or_left_before_is_not_missed(rig):
     put(rig, **({"FS_GCS_ENABLE": 1} if ardupilot(rig) else {}))
-    rig.firmware.heard_station(rig.now_s)
+    rig.firmware.heard_station(rig.now_s, 255)
     rig.fly(12.0)
     rig.take_off(1.0)
     rig.fly(18.0)

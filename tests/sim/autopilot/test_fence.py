@@ -67,7 +67,7 @@ def test_the_ceiling_is_a_fence_for_who_flies_by_thrust(rigs):
     put(rig, GF_ACTION=5)
     rig.take_off(1.5)
     assert rig.mode("stabilize").result is Ack.ACCEPTED
-    rig.every = lambda: rig.firmware.manual(0.0, 0.0, 0.65, 0.0, rig.now_s)
+    rig.every = lambda: rig.firmware.manual(0.0, 0.0, 0.65, 0.0, rig.now_s, 255)
     assert rig.fly(5, lambda: rig.in_mode("land"))
     assert rig.heard("ceiling")
 

@@ -111,13 +111,13 @@ def test_hold_stops_and_stays(rig):
 def test_sticks_fly_position_and_stabilize(rig):
     assert rig.mode("position").result is Ack.ACCEPTED
     assert rig.do(400, 1).result is Ack.ACCEPTED
-    rig.every = lambda: rig.firmware.manual(0.0, 0.0, 0.9, 0.0, rig.now_s)
+    rig.every = lambda: rig.firmware.manual(0.0, 0.0, 0.9, 0.0, rig.now_s, 255)
     assert rig.fly(5, lambda: rig.true_ned[2] < -1.2)
-    rig.every = lambda: rig.firmware.manual(0.0, 0.5, 0.5, 0.0, rig.now_s)
+    rig.every = lambda: rig.firmware.manual(0.0, 0.5, 0.5, 0.0, rig.now_s, 255)
     rig.fly(2.0)
     assert rig.true_ned[0] > 0.8
     assert rig.mode("stabilize").result is Ack.ACCEPTED
-    rig.every = lambda: rig.firmware.manual(0.3, 0.0, 0.5, 0.0, rig.now_s)
+    rig.every = lambda: rig.firmware.manual(0.3, 0.0, 0.5, 0.0, rig.now_s, 255)
     rig.fly(1.0)
     assert rig.report.estimate.roll_rad > 0.05
     rig.every = None
@@ -154,6 +154,7 @@ def test_orbits(rig):
 
 
 def test_turns_and_looks_at_a_region(rig):
+    rig.firmware.now.nose_to_region = True
     rig.take_off(1.5)
     assert rig.do(115, 90.0, 0, 1, 0).result is Ack.ACCEPTED
     assert rig.fly(4, lambda: abs(rig.report.estimate.heading_rad - math.pi / 2) < 0.1)

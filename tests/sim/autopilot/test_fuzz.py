@@ -106,9 +106,9 @@ DEEDS = {
     "plan": _plan,
     "pose": lambda rig, *rest: rig.firmware.external_pose(*rest, rig.now_s),
     "origin": lambda rig, where: rig.firmware.set_origin(*where),
-    "manual": lambda rig, sticks: rig.firmware.manual(*sticks, rig.now_s),
+    "manual": lambda rig, sticks: rig.firmware.manual(*sticks, rig.now_s, 255),
     "current": lambda rig, seq: rig.firmware.set_current(seq),
-    "station": lambda rig: rig.firmware.heard_station(rig.now_s),
+    "station": lambda rig: rig.firmware.heard_station(rig.now_s, 255),
     "takeoff": _takeoff,
 }
 

@@ -186,7 +186,7 @@ def test_bad_setpoints_leave_it_flying_what_it_flew(rig):
     rig.firmware.attitude_target(AttitudeSetpoint(0x47, (1, 0, 0, 0), (0.0, 0.0, 0.0), 0.5), rig.now_s)
     rig.firmware.external_pose((NAN, 0.0, 0.0), None, rig.now_s)
     rig.firmware.external_pose((0.0, 0.0, 0.0), INF, rig.now_s)
-    rig.firmware.manual(NAN, 0.0, 0.5, 0.0, rig.now_s)
+    rig.firmware.manual(NAN, 0.0, 0.5, 0.0, rig.now_s, 255)
     rig.fly(1.0)
     assert rig.heard("Setpoint refused")
     assert rig.off(1.0, 0.0, -1.5) < 0.2

@@ -10,7 +10,7 @@ from sim.bullet import STEP_S
 from sim.mavlink.endpoint import Aboard, Endpoint
 from sim.mavlink.links import TcpServer, UdpIn
 from sim.mavlink.peer import Signing
-from sim.sitl import Flight
+from sim.sitl_flight import Flight
 from sim.sitl_options import parse
 
 STEPS = 2

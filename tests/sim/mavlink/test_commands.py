@@ -100,9 +100,10 @@ def test_everything_that_streams_comes_at_its_rate(bed):
     craft = bed.endpoint.nodes[0].craft
     sometimes = {85, 62}
     for message_id in streams.MESSAGES.keys() - sometimes:
-        name = mav.mavlink_map[message_id].msgname
+        known = mav.mavlink_map.get(message_id)
+        name = known.msgname if known else f"UNKNOWN_{message_id}"
         rate = streams.usual_rate_hz(craft, message_id)
-        got = [m for m in client.all(name) if m.get_srcComponent() == 1]
+        got = [m for m in client.all(name) if not known or m.get_srcComponent() == 1]
         assert abs(len(got) - 4 * rate) <= 1 + 0.05 * 4 * rate, (name, len(got), rate)
 
 
@@ -133,12 +134,69 @@ def test_command_int_is_scaled(bed):
     client.wait("LOCAL_POSITION_NED", 15.0, lambda m: abs(m.x - 2.0) < 0.2)
 
 
+def test_the_altitude_of_an_orbit_is_above_the_sea_whatever_the_frame(bed):
+    """As MAVSDK sends it."""
+    client = bed.client()
+    client.fly()
+    here = client.wait("GLOBAL_POSITION_INT")
+    client.mav.command_int_send(1, 1, 3, mav.MAV_CMD_DO_ORBIT, 0, 0, 1, 1, 0, NAN, here.lat, here.lon, 490.0)
+    assert client.wait("COMMAND_ACK").result == 0, client.texts()
+    bed.advance(6.0)
+    assert here_down(client) == pytest.approx(-2.0, abs=0.3)
+
+
+def here_down(client) -> float:
+    client.forget()
+    return float(client.wait("LOCAL_POSITION_NED").z)
+
+
+@pytest.mark.parametrize(("params", "name"), [((1,), "gyro"), ((0, 1), "mag"), ((0, 0, 0, 0, 1), "accel")])
+def test_px4_tells_of_a_calibration_in_the_words_that_stations_wait_for(params, name):
+    with Bed("px4") as bed:
+        client = bed.client()
+        bed.advance(1.0)
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION, *params) == 0
+        bed.advance(0.5)
+        said = [text for text in client.texts() if text.startswith("[cal]")]
+        assert (said[0], said[-1]) == (f"[cal] calibration started: 2 {name}", f"[cal] calibration done: {name}")
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION) == 0, "called off"
+        bed.advance(0.5)
+        assert not client.texts()
+        assert client.command(mav.MAV_CMD_PREFLIGHT_CALIBRATION, 0, 0, 0, 1) == mav.MAV_RESULT_UNSUPPORTED
+
+
+def test_a_reboot_mends_what_was_broken_and_nothing_shuts_down(bed):
+    client = bed.client()
+    bed.advance(3.0)
+    if bed.firmware.now.row.name == "px4":
+        bed.firmware.set_param("SYS_FAILURE_EN", 1)
+    assert client.command(mav.MAV_CMD_INJECT_FAILURE, 4, 1) == 0
+    client.wait("SYS_STATUS", 10.0, lambda m: not m.onboard_control_sensors_health & 0x10000000)
+    assert client.command(mav.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 2) == mav.MAV_RESULT_DENIED
+    bed.advance(0.2)
+    assert "Only a reboot is possible" in "".join(client.texts())
+    assert client.command(mav.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 1) == 0
+    client.forget()
+    client.wait("SYS_STATUS", 20.0, lambda m: bool(m.onboard_control_sensors_health & 0x10000000))
+
+
 def test_takeoff_reports_and_lands(bed):
     client = bed.client()
     client.fly()
     assert client.command(mav.MAV_CMD_NAV_LAND) == 0
     client.wait("EXTENDED_SYS_STATE", 20.0, lambda m: m.landed_state == 1)
     client.wait("HEARTBEAT", 20.0, lambda m: m.get_srcComponent() == 1 and not m.base_mode & 128)
+
+
+def test_the_battery_says_how_long_it_lasts(bed):
+    client = bed.client()
+    assert client.wait("BATTERY_STATUS").time_remaining == 0, "on the ground nobody knows"
+    client.fly()
+    bed.firmware.set_param("SIM_BAT_DRAIN", 400.0)
+    bed.advance(30.0)
+    client.forget()
+    said = client.wait("BATTERY_STATUS")
+    assert said.time_remaining == pytest.approx(4.0 * said.battery_remaining, rel=0.1)
 
 
 def test_one_system_id_a_vehicle():

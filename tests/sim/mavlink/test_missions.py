@@ -6,6 +6,7 @@ import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mav
 
 from sim.mavlink.missions import AGAIN_S, TRIES
+from tests.sim.mavlink.bed import Bed
 
 HOME = (47.397742, 8.545594)
 
@@ -260,3 +261,27 @@ def test_a_place_that_cannot_be_is_refused_by_the_number_that_is_wrong(bed, plac
     asked(client, 1)
     item(client, 1, x=place[0], y=place[1], z=place[2])
     assert client.wait("MISSION_ACK").type == result
+
+
+def test_arducopter_has_a_part_of_its_mission_written_anew():
+    """As MAVProxy does to move one waypoint; what is flown to stays so."""
+    with Bed("ardupilot") as bed:
+        client = bed.client()
+        bed.advance(3.0)
+        assert upload(client, POINTS) == 0
+        client.mav.mission_set_current_send(1, 1, 4)
+        bed.advance(0.1)
+        client.forget()
+        client.mav.mission_write_partial_list_send(1, 1, 2, 3, 0)
+        for seq in (2, 3):
+            asked(client, seq)
+            item(client, seq, x=HOME[0] + 3e-5, y=HOME[1], z=3.0 + seq)
+        assert client.wait("MISSION_ACK").type == 0
+        assert [round(m.z, 2) for m in download(client)][1:] == [1.1, 5.0, 6.0, 1.4, 1.5]
+        client.forget()
+        assert client.wait("MISSION_CURRENT").seq == 4
+        for first, last in ((4, 6), (-1, 2), (3, 2)):
+            client.forget()
+            client.mav.mission_write_partial_list_send(1, 1, first, last, 0)
+            assert client.wait("MISSION_ACK").type == mav.MAV_MISSION_ERROR
+        assert len(download(client)) == len(POINTS)

@@ -81,3 +81,20 @@ def test_what_is_out_of_range_changes_nothing(bed):
         assert client.wait("PARAM_VALUE").param_value == 0.0
         bed.advance(1.1)
         assert any("SIM_BAT_DRAIN" in text for text in client.texts())
+
+
+def test_px4_takes_each_parameter_by_its_own_type_only(bed):
+    """ArduCopter converts."""
+    client = bed.client()
+    px4 = bed.firmware.now.row.name == "px4"
+    whole = next(p for p in bed.firmware.params() if p.integer and not p.read_only and p.most >= 2)
+    for name, sent, kind in (
+        (whole.name, 2.0, mav.MAV_PARAM_TYPE_REAL32),
+        ("SIM_BAT_DRAIN", int_bits(2) if px4 else 2.0, mav.MAV_PARAM_TYPE_INT32),
+    ):
+        before = next(p.value for p in bed.firmware.params() if p.name == name)
+        client.forget()
+        client.mav.param_set_send(1, 1, name.encode(), sent, kind)
+        client.wait("PARAM_ERROR" if px4 else "PARAM_VALUE")
+        assert next(p.value for p in bed.firmware.params() if p.name == name) == (before if px4 else 2.0)
+        assert px4 is any(f"{name} is set with type" in text for text in client.texts())

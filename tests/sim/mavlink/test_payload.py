@@ -133,10 +133,12 @@ def test_older_commands_go_to_the_autopilot(shown):
         assert client.command(205, -90, 0, 30) == 0
         bed.advance(2.0)
         gimbal = bed.endpoint.nodes[0]._payload.gimbal
-        assert (math.degrees(gimbal.pitch_rad), math.degrees(gimbal.yaw_rad)) == pytest.approx((-90, 30), abs=0.1)
+        assert (math.degrees(gimbal.aim.pitch_rad), math.degrees(gimbal.aim.yaw_rad)) == pytest.approx(
+            (-90, 30), abs=0.1
+        )
         assert client.command(204, 1) == 0
         bed.advance(2.0)
-        assert (gimbal.pitch_rad, gimbal.yaw_rad) == pytest.approx((0, 0), abs=0.01)
+        assert (gimbal.aim.pitch_rad, gimbal.aim.yaw_rad) == pytest.approx((0, 0), abs=0.01)
         assert client.command(205, 90) == mav.MAV_RESULT_DENIED
         assert client.command(206, -7) == mav.MAV_RESULT_DENIED
         assert bool({m.get_srcComponent() for m in client.all("HEARTBEAT")} & {CAMERA, GIMBAL}) <= shown

@@ -103,6 +103,7 @@ def test_sticks_are_taken_in_any_form(bed):
     client = bed.client()
     client.fly()
     row = bed.firmware.now.row
+    bed.firmware.set_param("SYSID_MYGCS", 245)
     bed.firmware.set_mode(1, row.modes["position"], bed.flight.now_s)
     for _ in range(40):
         client.mav.manual_control_send(1, 500, 0, 500, 0x7FFF, 0)
@@ -112,6 +113,48 @@ def test_sticks_are_taken_in_any_form(bed):
         client.mav.rc_channels_override_send(1, 1, 1500, 1250, 1500, 0xFFFF, 0, 0, 0, 0)
         bed.advance(0.05)
     assert here(client).vx > 0.3
+
+
+def test_arducopter_follows_the_sticks_and_the_heartbeat_of_one_station():
+    with Bed("ardupilot") as bed:
+        own, other = bed.client("tcp", 255), bed.client("udp", 245)
+        own.fly()
+        row = bed.firmware.now.row
+        bed.firmware.set_param("FS_GCS_ENABLE", 5)
+        bed.firmware.set_mode(1, row.modes["position"], bed.flight.now_s)
+        for _ in range(20):
+            other.mav.manual_control_send(1, 500, 0, 500, 0, 0)
+            bed.advance(0.05)
+        assert own.texts().count("Sticks of system 245 ignored: SYSID_MYGCS is 255") == 1
+        assert abs(here(own).vx) < 0.2
+        for _ in range(20):
+            own.mav.manual_control_send(1, 500, 0, 500, 0, 0)
+            bed.advance(0.05)
+        own.forget()
+        assert here(own).vx > 0.3
+        own.beats = False
+        bed.advance(7.0)
+        assert bed.firmware.telemetry(bed.flight.now_s).custom_mode == row.modes["land"], "the other one does not count"
+
+
+def test_overridden_channels_are_told_until_they_are_let_go(bed):
+    own, other = bed.client("tcp", 255), bed.client("udp", 245)
+    bed.advance(1.0)
+
+    def throttle_us() -> int:
+        own.forget()
+        return int(own.wait("RC_CHANNELS").chan3_raw)
+
+    assert throttle_us() == 1000
+    own.mav.rc_channels_override_send(1, 1, 1500, 1500, 1350, 1500, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == 1350
+    own.mav.rc_channels_override_send(1, 1, 0, 0, 0, 0, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == 1000
+    other.mav.rc_channels_override_send(1, 1, 1500, 1500, 1700, 1500, 0, 0, 0, 0)
+    bed.advance(0.1)
+    assert throttle_us() == (1700 if bed.firmware.now.row.name == "px4" else 1000), "SYSID_MYGCS is 255"
 
 
 def test_time_is_handed_in(bed):

@@ -71,7 +71,7 @@ class ZenohNode:
         self.boot_id = ""
         """Written, as the two that follow, by whoever drives this node."""
         self.tick, self.now_s = NO_TICK, 0.0
-        self._outbox = Outbox(id, role, lockstep, self._declare)
+        self.outbox = Outbox(id, role, lockstep, self._declare)
         self.shelf = Shelf(self._nudge)
         self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)
         self.mailbox = Mailbox(id, owner)
@@ -162,11 +162,11 @@ class ZenohNode:
         self._declared.append(self._session.liveliness().declare_token(self._presence_key))
 
     def publish(self, topic: str, message: Message, id: str = "") -> None:
-        self._outbox.publish(topic, message, id, self.tick)
+        self.outbox.publish(topic, message, id, self.tick)
 
     def flush(self) -> None:
         """Send what was published in lockstep."""
-        self._outbox.flush()
+        self.outbox.flush()
 
     def ask(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> int:
         row = service_for(service, self._role, serving=False)
@@ -175,6 +175,7 @@ class ZenohNode:
         expr = self._expr(row.path, id)
         timeout_s = row.timeout_s if timeout_s is None else timeout_s
         number = self.mailbox.ask(service, id, self._now_s(), timeout_s)
+        self.outbox.wake(id or row.servers[0])
         self.flush()
 
         def on_reply(reply: zenoh.Reply) -> None:
@@ -191,7 +192,7 @@ class ZenohNode:
             congestion_control=_BLOCK,
             timeout=3600.0 if self._lockstep else timeout_s + 1.0,
             payload=encode(request),
-            attachment=self._outbox.stamp(self.tick),
+            attachment=self.outbox.stamp(self.tick),
             allowed_destination=_REMOTE,
         )
         return number
@@ -260,8 +261,9 @@ class ZenohNode:
         expr = self._expr(row.path, id)
 
         def answer(reply: bytes) -> None:
+            self.outbox.wake(sender)
             self.flush()
-            query.reply(expr, reply, attachment=self._outbox.stamp(self.tick))
+            query.reply(expr, reply, attachment=self.outbox.stamp(self.tick))
             query.drop()
 
         tick, seq, sender = stamp

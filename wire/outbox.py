@@ -9,6 +9,7 @@ from typing import Any
 from wire.codec import encode
 from wire.keys import Role, Topic
 from wire.letter import write_stamp
+from wire.messages.clock import MOST_WAKES
 from wire.model import Message
 from wire.paths import topic_for
 
@@ -32,6 +33,7 @@ class Outbox:
         self._ways: dict[tuple[str, str], tuple[Topic, Any, int]] = {}
         """Topic, publisher, and the tick in which it was declared."""
         self._unsent: list[tuple[Any, bytes, bytes]] = []
+        self._wakes: set[str] = set()
 
     def stamp(self, tick: int) -> bytes:
         """For the next thing said."""
@@ -51,6 +53,15 @@ class Outbox:
         self._unsent.append((way, payload, stamp))
         if topic in CLOCK_TOPICS or len(payload) > BIG_BYTES:
             self.flush()
+
+    def wake(self, name: str) -> None:
+        """This process, or those of this role, were asked something or answered."""
+        self._wakes.add(name)
+
+    def take_wakes(self) -> tuple[str, ...]:
+        """The names since the last call; strangers may have asked under more than anybody here has."""
+        wakes, self._wakes = sorted(self._wakes), set()
+        return tuple(wakes[:MOST_WAKES])
 
     def flush(self) -> None:
         """Send what was published in lockstep."""

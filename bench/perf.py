@@ -2,15 +2,16 @@
 
 Each measurement is a module of its own that prints JSON; this runs them one after the other, compares, and writes
 out/perf/perf.json and out/perf/perf.png. A missed target is reported, never hidden; the exit code stays 0, because a
-busy machine is no fault of the code.
+busy machine is no fault of the code. Stopped by Ctrl-C, it keeps what has been measured and exits with 130.
 """
 
 import argparse
 import json
+import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,8 @@ from typing import Any
 from bench.plot import draw_rows
 
 OUT = Path("out/perf")
+END_S = 20.0
+EXIT_INTERRUPTED = 130
 Json = dict[str, Any]
 
 
@@ -107,18 +110,29 @@ SECTIONS: tuple[Section, ...] = (
 def run_section(section: Section) -> Json:
     """The JSON that a measurement prints, or what went wrong."""
     began = time.monotonic()
-    done = subprocess.run(
-        [sys.executable, "-m", section.module, "--json", *section.arguments],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command = [sys.executable, "-m", section.module, "--json", *section.arguments]
+    # in a group of its own, so that Ctrl-C reaches it once, through `_end`
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0) as child:
+        try:
+            said, faults = child.communicate()
+        except KeyboardInterrupt:
+            _end(child)
+            raise
     took_s = round(time.monotonic() - began, 1)
-    if done.returncode != 0:
-        return {"error": done.stderr.strip().splitlines()[-1:] or ["no output"], "took_s": took_s}
-    text = done.stdout[done.stdout.index("{") :]
+    if child.returncode != 0:
+        return {"error": faults.strip().splitlines()[-1:] or ["no output"], "took_s": took_s}
+    text = said[said.index("{") :]
     document: Json = json.loads(text)
     return {**document, "took_s": took_s}
+
+
+def _end(child: subprocess.Popen[str]) -> None:
+    """It may have a mesh running, and is given the time to stop it."""
+    child.send_signal(signal.SIGINT)
+    try:
+        child.communicate(timeout=END_S)
+    except subprocess.TimeoutExpired:
+        child.kill()
 
 
 def judge(section: Section, document: Json) -> list[Json]:
@@ -143,6 +157,18 @@ def _line(row: Json) -> str:
     return f"  {'ok' if row['met'] else 'MISSED':>8}  {row['name']}: {row['value']:g} {row['unit']} (target {sign} {row['target']:g})"
 
 
+def _measure(sections: Sequence[Section], report: Json, *, quiet: bool) -> None:
+    """One after the other into `report`, each told as it begins and ends unless `quiet`."""
+    for number, section in enumerate(sections, start=1):
+        if not quiet:
+            print(f"[{number}/{len(sections)}] {section.about} ({section.module})", flush=True)
+        document = run_section(section)
+        rows = judge(section, document)
+        report[section.module] = {"about": section.about, "claims": rows, "measured": document}
+        if not quiet:
+            print("\n".join(map(_line, rows)), f"           {document['took_s']:g} s", sep="\n", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true", help="print the JSON document instead of lines")
@@ -150,21 +176,18 @@ def main() -> None:
     arguments = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)  # some sections draw there
     report: Json = {}
-    for section in SECTIONS:
-        if arguments.only not in section.module:
-            continue
-        if not arguments.json:
-            print(f"{section.about} ({section.module})", flush=True)
-        document = run_section(section)
-        rows = judge(section, document)
-        report[section.module] = {"about": section.about, "claims": rows, "measured": document}
-        if not arguments.json:
-            print("\n".join(map(_line, rows)), flush=True)
+    wanted = [section for section in SECTIONS if arguments.only in section.module]
+    try:
+        _measure(wanted, report, quiet=arguments.json)
+    except KeyboardInterrupt:
+        print(f"stopped after {len(report)} of {len(wanted)} measurements", file=sys.stderr)
     (OUT / "perf.json").write_text(json.dumps(report, indent=2, sort_keys=True) + "\n")
     draw_rows([row for entry in report.values() for row in entry["claims"]], OUT / "perf.png")
     print(
         json.dumps(report, indent=2, sort_keys=True) if arguments.json else f"wrote {OUT}/perf.json and {OUT}/perf.png"
     )
+    if len(report) < len(wanted):
+        sys.exit(EXIT_INTERRUPTED)
 
 
 if __name__ == "__main__":

@@ -76,10 +76,13 @@ def duplicates(things: Things, changed: Mapping[str, Thing]) -> list[tuple[Thing
         x, y, id = thing.x, thing.y, thing.id
         apart = thing.distinct if thing.shape.kind == "pickup" else ()
         for other in things.near(x, y, _MERGE_M):
+            dx, dy = x - other.x, y - other.y
+            apart_m2 = dx * dx + dy * dy
+            if apart_m2 > _MERGE_M2:  # most of them
+                continue
             if other.id in apart or other is thing or (other.id <= id and other.id in changed):
                 continue
-            apart_m2 = (x - other.x) ** 2 + (y - other.y) ** 2
-            if apart_m2 > _MERGE_M2 or other.id in gone or not _one(thing, other, apart_m2):
+            if other.id in gone or not _one(thing, other, apart_m2):
                 continue
             keep, drop = (thing, other) if _rank(thing) >= _rank(other) else (other, thing)
             pairs.append((keep, drop))

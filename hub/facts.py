@@ -11,7 +11,7 @@ _OUTDATED_FADE_S = 20.0
 """A first-hand claim fades this fast once somebody who had agreed, or had said nothing, says otherwise."""
 _SMOOTH = 0.4
 _WEIGH_S = 1.0
-"""What one source says all the time is weighed anew this often."""
+"""What sources say all the time is weighed anew this often."""
 _FLIP_ODDS = 0.3
 """A settled value changes only when the other side leads by this much."""
 
@@ -33,13 +33,14 @@ def claim(fact: Fact, source: str, probability: float, stamp_s: float) -> None:
 def handle(fact: Fact, source: str, value: bool, stamp_s: float) -> None:
     """A robot has made it so."""
     fact.claims[source] = Claim(1.0 if value else 0.0, stamp_s, handled=True)
+    fact.weighed = 0
 
 
 def settle(fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> bool:
     """Weigh the claims; True when value, source or contradictions changed."""
     if now_s - fact.weighed_s < _WEIGH_S and _unanimous(fact):
         return False
-    fact.weighed_s = now_s
+    fact.weighed_s, fact.weighed = now_s, len(fact.claims)
     weights = {source: _weight(source, said, fact, now_s, trust, robots) for source, said in fact.claims.items()}
     total = sum(weights.values())
     value = total > 0.0
@@ -62,12 +63,15 @@ def settle(fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> bo
 
 
 def _unanimous(fact: Fact) -> bool:
-    """Whether the only source goes on saying what is believed."""
-    if len(fact.claims) != 1 or fact.contradicted_by or fact.source not in fact.claims:
+    """Whether all who have spoken go on saying what is believed, and nobody has joined them."""
+    claims, value = fact.claims, fact.value
+    if len(claims) != fact.weighed or fact.contradicted_by or fact.source not in claims:
         return False
-    said = fact.claims[fact.source]
-    fact.stamp_s = said.stamp_s
-    return (said.probability > 0.5) == fact.value
+    for said in claims.values():
+        if (said.probability > 0.5) != value:
+            return False
+    fact.stamp_s = claims[fact.source].stamp_s
+    return True
 
 
 def _weight(source: str, said: Claim, fact: Fact, now_s: float, trust: Trust, robots: frozenset[str]) -> float:

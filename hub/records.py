@@ -24,7 +24,7 @@ class Claim:
 class Fact:
     """One entry of the vector pi of equation 3, with every source's claim."""
 
-    __slots__ = ("claims", "confidence", "contradicted_by", "source", "stamp_s", "value", "weighed_s")
+    __slots__ = ("claims", "confidence", "contradicted_by", "source", "stamp_s", "value", "weighed", "weighed_s")
 
     def __init__(self) -> None:
         self.claims: dict[str, Claim] = {}
@@ -33,7 +33,8 @@ class Fact:
         self.source = ""
         self.stamp_s = 0.0
         self.contradicted_by: tuple[str, ...] = ()
-        self.weighed_s = -1e9
+        self.weighed, self.weighed_s = 0, -1e9
+        """How many claims were weighed last, and when."""
 
 
 class Sight:

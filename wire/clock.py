@@ -1,7 +1,7 @@
 """The mesh's time: the wall's, or in lockstep the ticks of one owner, who waits for every follower."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import ceil, floor
 from typing import cast
 
@@ -9,8 +9,8 @@ from wire.bus import Core, Resting
 from wire.keys import FOLLOWERS
 from wire.site import Site
 
-LONGEST_REST_S = 0.25
-"""Whoever rests hears after this at the latest what was said to it."""
+LONGEST_REST_S = 0.5
+"""Whoever rests hears after this at the latest what was published; a question or an answer ends its rest."""
 LATE_S = 1.0
 """Behind by more than this, the pace is taken up anew instead of being caught up with."""
 
@@ -43,16 +43,19 @@ def next_turn(core: Core, beat_due_s: float, tick: int, now_s: float, step_s: fl
 class Roll:
     """Which followers are there, whose turn it is, and who still owes the answer to the newest tick."""
 
-    def __init__(self, followers: Iterable[str]) -> None:
-        self._followers = frozenset(followers)
+    def __init__(self, followers: Mapping[str, str]) -> None:
+        """`followers` and their roles."""
+        self._followers = dict(followers)
         self._turns: dict[str, int] = {}
         """Of those who are there: the tick of the next turn."""
         self._waiting: set[str] = set()
+        self._woken: set[str] = set()
+        """Who was named in answers to this tick: a process, or a role."""
         self._tick = -1
 
     @property
     def absent(self) -> list[str]:
-        return sorted(self._followers - self._turns.keys())
+        return sorted(self._followers.keys() - self._turns.keys())
 
     @property
     def waiting(self) -> list[str]:
@@ -75,11 +78,17 @@ class Roll:
     def begin(self, tick: int) -> list[str]:
         """Those whose turn it is, and who are waited for from now on."""
         self._tick = tick
-        self._waiting = {follower for follower, turn in self._turns.items() if turn <= tick}
+        woken, self._woken = self._woken, set()
+        self._waiting = {
+            follower
+            for follower, turn in self._turns.items()
+            if turn <= tick or follower in woken or self._followers[follower] in woken
+        }
         return self.waiting
 
-    def done(self, follower: str, tick: int, next_turn: int = 0) -> None:
+    def done(self, follower: str, tick: int, next_turn: int = 0, wakes: Iterable[str] = ()) -> None:
         if tick == self._tick and follower in self._waiting:
+            self._woken.update(wakes)
             self._waiting.discard(follower)
             self._turns[follower] = next_turn
 
@@ -103,9 +112,9 @@ class Pace:
         return max(0.0, ahead_s)
 
 
-def followers_of(site: Site) -> list[str]:
-    """The processes that are expected to follow the clock."""
-    return [p.id for p in site.process if p.role in FOLLOWERS and p.autostart]
+def followers_of(site: Site) -> dict[str, str]:
+    """The processes that are expected to follow the clock, and their roles."""
+    return {p.id: p.role for p in site.process if p.role in FOLLOWERS and p.autostart}
 
 
 def owner_of(site: Site) -> str:

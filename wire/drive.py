@@ -2,7 +2,7 @@
 
 import logging
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from wire.bus import Core, Event, Received
 from wire.clock import Pace, Roll, WallClock, boot_id, next_turn
@@ -67,14 +67,16 @@ def drive_follower(node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping
         core.step(tick.now_s, node.mailbox.at_tick(tick.tick, tick.now_s))
         pulse.beat(tick.now_s)
         turn = next_turn(core, pulse.due_s, tick.tick, tick.now_s, tick.step_s)
-        node.publish("tick_done", TickDone(tick=tick.tick, follower=node.id, next_turn=turn), node.id)
+        wakes = node.outbox.take_wakes()
+        done = TickDone(tick=tick.tick, follower=node.id, next_turn=turn, wakes=wakes)
+        node.publish("tick_done", done, node.id)
 
 
 def drive_owner(
-    node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float, speed: float, followers: Iterable[str]
+    node: ZenohNode, core: Core, pulse: Pulse, stopping: Stopping, step_s: float, speed: float, roles: Mapping[str, str]
 ) -> None:
-    """Step, tell the tick, and wait until every follower whose turn it is has stepped, too."""
-    roll, pace = Roll(followers), Pace(speed)
+    """Step, tell the tick, and wait until every follower whose turn it is has stepped, too. `roles`: of the followers."""
+    roll, pace = Roll(roles), Pace(speed)
     node.subscribe("tick_done")
     node.track_presence()
     core.start(node)
@@ -104,13 +106,15 @@ def _pick_up(node: ZenohNode, timeout_s: float = 0.0) -> list[Letter]:
     return presence
 
 
-def _next_turn_in(node: ZenohNode, answer: Letter) -> int:
+def _note_done(node: ZenohNode, roll: Roll, answer: Letter) -> None:
     """Whoever answers in a way that is not understood is asked in every tick."""
     try:
-        return decode(TickDone, answer.payload, answer.name).next_turn
+        done = decode(TickDone, answer.payload, answer.name)
     except WireError as error:
         node.mailbox.warn(str(error))
-        return 0
+        roll.done(answer.id, answer.tick)
+        return
+    roll.done(answer.id, answer.tick, done.next_turn, done.wakes)
 
 
 def _newest_tick(node: ZenohNode, letters: Iterable[Letter]) -> Tick | None:
@@ -144,7 +148,7 @@ def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
     while (roll.waiting or roll.deserted) and not stopping():
         answers = node.shelf.wait()
         for letter in answers:
-            roll.done(letter.id, letter.tick, _next_turn_in(node, letter))
+            _note_done(node, roll, letter)
         if answers:
             continue
         _call_roll(node, roll)

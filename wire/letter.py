@@ -74,3 +74,9 @@ def reply_letter(service: str, id: str, number: int, reply: Any) -> Letter:
     elif reply.err is not None:
         letter.error = reply.err.payload.to_string() or "refused"
     return letter
+
+
+def refuse_query(query: Any, text: str) -> None:
+    """Tell whoever asked over Zenoh why there is no answer."""
+    query.reply_err(text.encode())
+    query.drop()

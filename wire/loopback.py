@@ -93,6 +93,8 @@ class LoopbackMesh:
         self._recorder = recorder
         self._members: dict[str, _Member] = {}
         self._arriving: list[_Member] = []
+        self._woken: set[str] = set()
+        """Who was asked or answered in this tick, and has a turn in the next."""
         self._tick = NO_TICK
         self._operator = LoopbackNode(self, OPERATOR, "console")
 
@@ -117,9 +119,10 @@ class LoopbackMesh:
         """One step of every process whose turn it is."""
         self._start_arrivals()
         self._tick += 1
+        woken, self._woken = self._woken, set()
         for id in sorted(self._members, key=lambda id: (not self._members[id].owner, id)):
             member = self._members[id]
-            if member.turn > self._tick:
+            if member.turn > self._tick and id not in woken:
                 continue
             member.node.boot_id = member.node.boot_id or boot_id(self.now_s)
             member.core.step(self.now_s, member.node.mailbox.at_tick(self._tick, self.now_s))
@@ -180,9 +183,11 @@ class LoopbackMesh:
         if not servers:
             return
         server = servers[0]
+        self._wake(asker, server.id)
 
         def answer(reply: bytes) -> None:
             server.seq += 1
+            self._wake(server, asker.id)
             asker.mailbox.hold(
                 [Letter(Kind.REPLY, service, id, server.id, self._tick_of(server), server.seq, reply, number)]
             )
@@ -218,6 +223,12 @@ class LoopbackMesh:
         for member in self._members.values():
             if member.node.watching:
                 member.node.mailbox.hold([Letter(Kind.PRESENCE, "", id, alive=alive)])
+
+    def _wake(self, speaker: LoopbackNode, id: str) -> None:
+        """Followers of the clock end each other's rest; its owner and the operator do not."""
+        member = self._members.get(speaker.id)
+        if member is not None and not member.owner:
+            self._woken.add(id)
 
     def _tick_of(self, node: LoopbackNode) -> int:
         return NO_TICK if node is self._operator else self._tick

@@ -15,10 +15,11 @@ from wire.bus import Event, Reply
 from wire.codec import encode, max_bytes
 from wire.inbox import Inbox
 from wire.keys import PRESENCE_PATH, Role, Service, Topic
-from wire.letter import NO_TICK, Kind, Letter, reply_letter, stamp_of, write_stamp
+from wire.letter import NO_TICK, Kind, Letter, refuse_query, reply_letter, stamp_of
 from wire.link import LEAN_RUNTIME, Link, MeshError, client_config, link_for
 from wire.mailbox import Mailbox
 from wire.model import Message
+from wire.outbox import CLOCK_TOPICS, Outbox
 from wire.paths import id_in, key, pattern, service_for, topic_for
 from wire.shelf import Shelf
 from wire.site import Site
@@ -29,9 +30,6 @@ SWITCH_S = 0.0005
 """A busy loop lets a callback in this often; at Python's own 5 ms the router would think that nobody reads."""
 FETCHED_AT_ONCE = 65_536
 """So many messages of one subscription may lie ready until they are fetched; then the link is held back."""
-BIG_BYTES = 20_000
-CLOCK_TOPICS = frozenset(("turn", "tick", "tick_done"))
-"""Their messages wake the loop in lockstep; all others lie ready until then."""
 _REMOTE = zenoh.Locality.REMOTE
 _BLOCK, _DROP = zenoh.CongestionControl.BLOCK, zenoh.CongestionControl.DROP
 
@@ -63,10 +61,7 @@ class ZenohNode:
         self._link, self._id = link, id
         self._role: Role = role
         self._lockstep = lockstep
-        self._seq = 0
         self._exprs: dict[str, zenoh.KeyExpr] = {}
-        self._ways: dict[tuple[str, str], tuple[Topic, zenoh.KeyExpr]] = {}
-        self._unsent: list[tuple[zenoh.KeyExpr, bytes, bytes]] = []
         self._nudge_expr = ""
         self._declared: list[Any] = []
         self._presence_declared = False
@@ -76,6 +71,7 @@ class ZenohNode:
         self.boot_id = ""
         """Written, as the two that follow, by whoever drives this node."""
         self.tick, self.now_s = NO_TICK, 0.0
+        self.outbox = Outbox(id, role, lockstep, self._declare)
         self.shelf = Shelf(self._nudge)
         self.inbox = Inbox(keep_newest_only=not lockstep and not keep_all)
         self.mailbox = Mailbox(id, owner)
@@ -127,11 +123,11 @@ class ZenohNode:
             return self._letter(row, limit, sample)
 
         box: Any = zenoh.handlers.FifoChannel(FETCHED_AT_ONCE)
-        if row.name not in CLOCK_TOPICS:
-            self.shelf.add(self._session.declare_subscriber(expr, box, allowed_origin=_REMOTE), open)
-        else:
+        if row.name in CLOCK_TOPICS:
             self._nudge_expr = expr
             self.shelf.add_clock(self._session.declare_subscriber(expr, box), open)
+            return
+        self.shelf.add(self._session.declare_subscriber(expr, box, allowed_origin=_REMOTE), open)
 
     def _nudge(self) -> None:
         self._session.put(self._nudge_expr, b"", allowed_destination=zenoh.Locality.SESSION_LOCAL)
@@ -156,12 +152,7 @@ class ZenohNode:
             return
         self._presence_declared = True
 
-        def on_token(sample: zenoh.Sample) -> None:
-            process = id_in(self._link.realm, PRESENCE_PATH, str(sample.key_expr))
-            if process is not None:
-                self.inbox.put(Letter(Kind.PRESENCE, "", process, alive=sample.kind == zenoh.SampleKind.PUT))
-
-        callback = zenoh.handlers.Callback(on_token, indirect=False)
+        callback = zenoh.handlers.Callback(self._file_presence, indirect=False)
         expr = pattern(self._link.realm, PRESENCE_PATH, None)
         self._declared.append(self._session.liveliness().declare_subscriber(expr, callback, history=True))
 
@@ -171,25 +162,11 @@ class ZenohNode:
         self._declared.append(self._session.liveliness().declare_token(self._presence_key))
 
     def publish(self, topic: str, message: Message, id: str = "") -> None:
-        row, expr = self._ways.get((topic, id)) or self._way(topic, id)
-        if not isinstance(message, row.message):
-            raise TypeError(f"{topic} carries {row.message.__name__}, not {type(message).__name__}")
-        payload, stamp = encode(message), self._stamp()
-        if not self._lockstep:
-            self._put(expr, payload, stamp, _BLOCK if row.delivery == "every" else _DROP)
-            return
-        self._unsent.append((expr, payload, stamp))
-        if topic in CLOCK_TOPICS or len(payload) > BIG_BYTES:
-            self.flush()
+        self.outbox.publish(topic, message, id, self.tick)
 
     def flush(self) -> None:
-        """Send what was published in lockstep: a picture dropped in one run and not in the next made the two differ."""
-        unsent, self._unsent = self._unsent, []
-        for expr, payload, stamp in unsent:
-            self._put(expr, payload, stamp, _BLOCK)
-
-    def _put(self, expr: zenoh.KeyExpr, payload: bytes, stamp: bytes, control: zenoh.CongestionControl) -> None:
-        self._session.put(expr, payload, attachment=stamp, congestion_control=control, allowed_destination=_REMOTE)
+        """Send what was published in lockstep."""
+        self.outbox.flush()
 
     def ask(self, service: str, request: Message, id: str = "", timeout_s: float | None = None) -> int:
         row = service_for(service, self._role, serving=False)
@@ -198,6 +175,7 @@ class ZenohNode:
         expr = self._expr(row.path, id)
         timeout_s = row.timeout_s if timeout_s is None else timeout_s
         number = self.mailbox.ask(service, id, self._now_s(), timeout_s)
+        self.outbox.wake(id or row.servers[0])
         self.flush()
 
         def on_reply(reply: zenoh.Reply) -> None:
@@ -211,10 +189,10 @@ class ZenohNode:
             expr,
             zenoh.handlers.Callback(on_reply, on_end, indirect=False),
             consolidation=zenoh.ConsolidationMode.NONE,
-            congestion_control=zenoh.CongestionControl.BLOCK,
+            congestion_control=_BLOCK,
             timeout=3600.0 if self._lockstep else timeout_s + 1.0,
             payload=encode(request),
-            attachment=self._stamp(),
+            attachment=self.outbox.stamp(self.tick),
             allowed_destination=_REMOTE,
         )
         return number
@@ -243,19 +221,16 @@ class ZenohNode:
     def _now_s(self) -> float:
         return self.now_s if self._lockstep else time.monotonic()
 
-    def _way(self, topic: str, id: str) -> tuple[Topic, zenoh.KeyExpr]:
-        row = topic_for(topic, self._role, publishing=True)
-        return self._ways.setdefault((topic, id), (row, self._expr(row.path, id)))
+    def _declare(self, row: Topic, id: str, every: bool) -> zenoh.Publisher:
+        return self._session.declare_publisher(
+            self._expr(row.path, id), congestion_control=_BLOCK if every else _DROP, allowed_destination=_REMOTE
+        )
 
     def _expr(self, path: str, id: str) -> zenoh.KeyExpr:
         text = key(self._link.realm, path, id)
         if text not in self._exprs:
             self._exprs[text] = zenoh.KeyExpr(text)
         return self._exprs[text]
-
-    def _stamp(self) -> bytes:
-        self._seq += 1
-        return write_stamp(self.tick, self._seq, self._id)
 
     def _letter(self, row: Topic, limit: int, sample: zenoh.Sample) -> Letter | None:
         if sample.kind != zenoh.SampleKind.PUT or (self._lockstep and sample.attachment is None):
@@ -271,28 +246,29 @@ class ZenohNode:
         tick, seq, sender = stamp
         return Letter(Kind.MESSAGE, row.name, id, sender, tick, seq, sample.payload.to_bytes())
 
+    def _file_presence(self, sample: zenoh.Sample) -> None:
+        process = id_in(self._link.realm, PRESENCE_PATH, str(sample.key_expr))
+        if process is not None:
+            self.inbox.put(Letter(Kind.PRESENCE, "", process, alive=sample.kind == zenoh.SampleKind.PUT))
+
     def _file_request(self, row: Service, id: str, query: zenoh.Query) -> None:
         stamp = stamp_of(query.attachment)
         payload = b"" if query.payload is None else query.payload.to_bytes()
         if stamp is None or len(payload) > max_bytes(row.request):
             self.mailbox.warn(f"{row.name}: a request without stamp or too big")
-            _refuse(query, f"{row.name}: not a request of this mesh")
+            refuse_query(query, f"{row.name}: not a request of this mesh")
             return
         expr = self._expr(row.path, id)
 
         def answer(reply: bytes) -> None:
+            self.outbox.wake(sender)
             self.flush()
-            query.reply(expr, reply, attachment=self._stamp())
+            query.reply(expr, reply, attachment=self.outbox.stamp(self.tick))
             query.drop()
 
         tick, seq, sender = stamp
-        refuse = partial(_refuse, query)
+        refuse = partial(refuse_query, query)
         self.inbox.put(Letter(Kind.REQUEST, row.name, id, sender, tick, seq, payload, answer=answer, refuse=refuse))
-
-
-def _refuse(query: zenoh.Query, text: str) -> None:
-    query.reply_err(text.encode())
-    query.drop()
 
 
 def node_for(site: Site, id: str, role: Role, timeout_s: float = 10.0, credentials: Path | None = None) -> ZenohNode:

@@ -26,6 +26,8 @@ TOUCH_WEIGHT = 30.0
 """Outlasts the beams that pass above or below what was touched for half a minute."""
 STANDING_AGAIN_S, EARLY_S = 1.0, 1e-6
 """A driver that is asked to stand stands; so often it is asked again."""
+DIRECTED_S = 0.3
+"""While anybody is at work the hub directs the traffic more often than this."""
 BODY_HALF_WIDTH_M, BODY_FRONT_M = 0.24, 0.33
 
 
@@ -105,6 +107,11 @@ class Body:
         asked = self._forward_mps or self._left_mps or self._yaw_rate_radps or self._pending or self._awaited
         ordered = self.order is not None and self.order.step_aside_m is not None
         return not asked and not ordered and self.odometry is not None and self.odometry.speed_mps < STANDS_MPS
+
+    @property
+    def directed(self) -> bool:
+        """Traffic orders come often: somebody moves, and may need this robot out of the way."""
+        return self.order is not None and self.now_s - self.order.stamp_s < DIRECTED_S
 
     @property
     def gripping(self) -> bool:

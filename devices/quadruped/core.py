@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import partial
+from math import inf
 
 from devices.device import Device
 from devices.goals_journal import GoalsJournal
@@ -20,6 +21,7 @@ from wire.site import Site
 
 KIND = "quadruped"
 CONTROL_S = 0.05
+LOOK_UP_S = 0.25
 EARLY_S = 1e-6
 
 
@@ -72,8 +74,11 @@ class QuadrupedCore:
             self._looks.begin(now_s, look)
 
     def rests_until_s(self) -> float:
-        """Whoever moves or has a goal steps in every tick."""
-        return self._looks.next_due_s if self._device.at_rest and self._body.at_rest else 0.0
+        """Whoever moves or has a goal steps in every tick; whoever may be asked to make way looks up now and then."""
+        if not (self._device.at_rest and self._body.at_rest):
+            return 0.0
+        look_up_s = self._body.now_s + LOOK_UP_S if self._body.directed else inf
+        return min(self._looks.next_due_s, look_up_s)
 
     def stop(self) -> None:
         self._looks.close()

@@ -8,7 +8,7 @@ from wire.clock import Pace, Roll, WallClock
 
 
 def test_time_waits_for_who_is_there() -> None:
-    roll = Roll(["hub", "dog-1", "dog-2"])
+    roll = Roll({"hub": "hub", "dog-1": "robot", "dog-2": "robot"})
     assert roll.deserted
     roll.presence("hub", True)
     roll.presence("dog-1", True)
@@ -28,7 +28,7 @@ def test_time_waits_for_who_is_there() -> None:
 
 
 def test_without_followers_time_goes_on_alone() -> None:
-    roll = Roll([])
+    roll = Roll({})
     roll.begin(0)
     assert roll.waiting == []
     assert not roll.deserted
@@ -38,7 +38,7 @@ def test_any_order_of_answers_ends_the_wait() -> None:
     rng = random.Random(5)
     for _ in range(50):
         names = [f"dog-{i}" for i in range(6)]
-        roll = Roll(names)
+        roll = Roll(dict.fromkeys(names, "robot"))
         for name in names:
             roll.presence(name, True)
         roll.begin(3)

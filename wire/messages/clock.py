@@ -1,10 +1,13 @@
 """The mesh's time, and the health of its processes."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from wire.model import Id, Message, Stamp, Text
+from wire.model import Id, Message, Stamp, Text, unset
+
+MOST_WAKES = 256
+Name = Annotated[str, Field(max_length=32)]
 
 
 class Tick(Message):
@@ -22,6 +25,8 @@ class TickDone(Message):
     follower: Id
     next_turn: int = Field(default=0, ge=0)
     """The tick in which it wants to step again; until then it rests. Any that is past means the next."""
+    wakes: tuple[Name, ...] = Field(default=(), max_length=MOST_WAKES, exclude_if=unset)
+    """Whom it has asked or answered, processes or a role: their rest ends with the next tick."""
 
 
 class Health(Message):

@@ -135,16 +135,27 @@ def _call_roll(node: ZenohNode, roll: Roll, timeout_s: float = 0.0) -> None:
 
 def _gather(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
     """Before the first tick: everybody hears it, whoever starts first."""
-    began_s = time.monotonic()
+    began_s = counted_s = time.monotonic()
     while roll.absent and not stopping():
         _call_roll(node, roll, WAIT_S)
+        counted_s = _recount(node, counted_s)
         if time.monotonic() - began_s > GATHER_S:
             log.warning("starting without %s: not there after %.0f s", ", ".join(roll.absent), GATHER_S)
             return
 
 
+def _recount(node: ZenohNode, counted_s: float) -> float:
+    """While somebody is missed: ask now and then who is there. Returns when that was done last."""
+    now_s = time.monotonic()
+    if now_s - counted_s < HANG_S:
+        return counted_s
+    node.recount()
+    return now_s
+
+
 def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
-    began_s, warned = time.monotonic(), False
+    began_s = counted_s = time.monotonic()
+    warned = False
     while (roll.waiting or roll.deserted) and not stopping():
         answers = node.shelf.wait()
         for letter in answers:
@@ -152,6 +163,7 @@ def _wait_for(node: ZenohNode, roll: Roll, stopping: Stopping) -> None:
         if answers:
             continue
         _call_roll(node, roll)
+        counted_s = _recount(node, counted_s)
         if not warned and time.monotonic() - began_s > HANG_S:
             warned = True
             whom = ", ".join(roll.waiting) or "any follower to come back"

@@ -31,6 +31,8 @@ SWITCH_S = 0.0005
 FETCHED_AT_ONCE = 65_536
 """So many messages of one subscription may lie ready until they are fetched; then the link is held back."""
 _REMOTE = zenoh.Locality.REMOTE
+RECOUNT_S = 2.0
+"""How long the router may take to say who is there."""
 _BLOCK, _DROP = zenoh.CongestionControl.BLOCK, zenoh.CongestionControl.DROP
 
 
@@ -65,6 +67,7 @@ class ZenohNode:
         self._nudge_expr = ""
         self._declared: list[Any] = []
         self._presence_declared = False
+        self._present: set[str] = set()
         self._kept: list[Event] = []
         self.watching = False
         """The core asked for presence."""
@@ -155,6 +158,17 @@ class ZenohNode:
         callback = zenoh.handlers.Callback(self._file_presence, indirect=False)
         expr = pattern(self._link.realm, PRESENCE_PATH, None)
         self._declared.append(self._session.liveliness().declare_subscriber(expr, callback, history=True))
+
+    def recount(self) -> None:
+        """Ask the router who is there: word of somebody who came can be lost with a link that breaks and is mended."""
+
+        def on_reply(reply: zenoh.Reply) -> None:
+            if reply.ok is not None:
+                self._note_presence(str(reply.ok.key_expr), alive=True)
+
+        expr = pattern(self._link.realm, PRESENCE_PATH, None)
+        callback = zenoh.handlers.Callback(on_reply, indirect=False)
+        self._session.liveliness().get(expr, callback, timeout=RECOUNT_S)
 
     def announce(self) -> None:
         """Tell the mesh that this process is there. Call when everything is subscribed and served."""
@@ -247,9 +261,15 @@ class ZenohNode:
         return Letter(Kind.MESSAGE, row.name, id, sender, tick, seq, sample.payload.to_bytes())
 
     def _file_presence(self, sample: zenoh.Sample) -> None:
-        process = id_in(self._link.realm, PRESENCE_PATH, str(sample.key_expr))
-        if process is not None:
-            self.inbox.put(Letter(Kind.PRESENCE, "", process, alive=sample.kind == zenoh.SampleKind.PUT))
+        self._note_presence(str(sample.key_expr), alive=sample.kind == zenoh.SampleKind.PUT)
+
+    def _note_presence(self, full_key: str, alive: bool) -> None:
+        """File what is news."""
+        process = id_in(self._link.realm, PRESENCE_PATH, full_key)
+        if process is None or alive == (process in self._present):
+            return
+        (self._present.add if alive else self._present.discard)(process)
+        self.inbox.put(Letter(Kind.PRESENCE, "", process, alive=alive))
 
     def _file_request(self, row: Service, id: str, query: zenoh.Query) -> None:
         stamp = stamp_of(query.attachment)

@@ -96,6 +96,21 @@ def test_a_router_that_is_killed_and_comes_back(tmp_path: Path) -> None:
         assert all(mesh.processes[id].poll() is None for id in CORES)
 
 
+def test_who_was_never_heard_to_come_is_found_by_counting(tmp_path: Path) -> None:
+    with WalkMesh(tmp_path, mode="wall", secured=True) as mesh:
+        mesh.run_core("dog-1")
+        with node_for(mesh.site, "hub", "hub", credentials=tmp_path / "credentials") as node:
+            came: list[object] = []
+
+            def hears() -> bool:
+                node.recount()
+                came.extend(node.collect(0.2))
+                return Presence("dog-1", True) in came
+
+            mesh.wait(hears)
+            assert len(came) == len(set(came)), "who is counted twice came once"
+
+
 def test_a_late_question_is_answered_as_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with WalkMesh(tmp_path, mode="wall") as mesh:
         mesh.run_core("dog-1")

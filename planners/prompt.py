@@ -32,11 +32,16 @@ _MARKS = str.maketrans(
 
 
 def quoted(text: str, limit: int = SENTENCE_LIMIT) -> str:
-    """Anybody's text as one field: on one line, without marks that could end it or open a turn of a chat, cut short."""
+    """Anybody's text as one field between quotation marks."""
+    return f'"{one_line(text, limit)}"'
+
+
+def one_line(text: str, limit: int) -> str:
+    """Text without line breaks, without marks that could end a quotation or open a turn of a chat, cut short."""
     plain = unicodedata.normalize("NFKC", text)
     plain = "".join(" " if unicodedata.category(c)[0] in "CZ" else c for c in plain).translate(_MARKS)
     words = " ".join(plain.split())
-    return f'"{words if len(words) <= limit else words[: limit - 1].rstrip() + "…"}"'
+    return words if len(words) <= limit else words[: limit - 1].rstrip() + "…"
 
 
 def label(type_name: str) -> str:
@@ -84,8 +89,13 @@ class Names:
 def relevant(instruction: str, world: WorldState) -> frozenset[str]:
     """Ids of the things that an instruction may be about, and of what they are in; of everything where it names none."""
     types = mentioned_types(instruction, {obj.type for obj in world.objects})
+    return holding({obj.id for obj in world.objects if obj.type in types} or {obj.id for obj in world.objects}, world)
+
+
+def holding(things: Iterable[str], world: WorldState) -> frozenset[str]:
+    """Ids of things with those of what they are in, to the outermost."""
     by_id = {obj.id: obj for obj in world.objects}
-    chosen = {obj.id for obj in world.objects if obj.type in types} or set(by_id)
+    chosen = set(things)
     for id in sorted(chosen):
         holder = by_id.get(by_id[id].receptacle or "")
         while holder is not None and holder.id not in chosen:

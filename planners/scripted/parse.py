@@ -38,7 +38,7 @@ def parse(instruction: str, lexicon: Lexicon) -> tuple[Item, ...]:
     refuse_strangers(words, instruction)
     typed = tokens(words)
     if not typed:
-        raise Unclear("there is nothing to do in it", instruction.strip())
+        raise Unclear("there is nothing to do in it", instruction.strip(), final=True)
     try:
         tree = grammar().parse(typed)
     except UnexpectedInput as error:
@@ -61,11 +61,13 @@ def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) 
     part = instruction[word.start : max(end, word.end)].strip()
     if word.kind == "NUM" and before is not None and before.kind == "NOUN":
         name = f"{before.text} {word.text}"
-        return Unclear(f"nothing here is called '{name}': say the room that the {before.text} is in, or its id", name)
+        return Unclear(
+            f"nothing here is called '{name}': say the room that the {before.text} is in, or its id", name, final=True
+        )
     if word.kind == "IS":
         start = next((w.end for w in reversed(typed) if w.end <= word.start and w.kind.startswith("SEP")), 0)
         said = instruction[start : word.end].strip()
-        return Unclear(f"'{said} ...' only says how things are: say 'make sure that ...'", part)
+        return Unclear(f"'{said} ...' only says how things are: say 'make sure that ...'", part, final=True)
     if word.kind == "OR":
         return Unclear("say which of them is meant: 'or' leaves it open", part, question=True)
     return Unclear(f"I do not understand '{part}' at this place", part)

@@ -1,0 +1,244 @@
+"""Is one goal of a reply what the operator's own words ask for? Each objection is one sentence for the model."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from planners.goals.offered import EVERYTHING, Offered
+from planners.goals.reply import Wish
+from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, denies
+from planners.prompt import one_line
+from planners.scripted.resolve import FLAG, named
+from wire.catalogue import type_row
+from wire.names import called
+
+LIGHT = frozenset(
+    {
+        "get",
+        "put",
+        "take",
+        "set",
+        "check",
+        "start",
+        "use",
+        "cut",
+        "drop",
+        "lay",
+        "grab",
+        "return",
+        "collect",
+        "see",
+        "remove",
+    }
+)
+"""Verbs that say little alone: "get the TV off" moves nothing."""
+ACTS = frozenset(ASKED_BY) - {"ISOPEN", "ISCLOSED", "ISON", "ISOFF", "ISCLEAN", "ISSLICED", "VIEW"}
+"""Token types of verbs that ask for something wherever they stand."""
+PLACED = ("in", "at")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A wish with the operator's words that it rests on."""
+
+    wish: Wish
+    kept: bool
+    span: frozenset[int]
+    told: tuple[Told, ...]
+    types: frozenset[str]
+    rooms: frozenset[str]
+
+    @property
+    def everything(self) -> bool:
+        return self.wish.a == EVERYTHING
+
+
+def entry_of(wish: Wish, kept: bool, instruction: Instruction, offered: Offered) -> Entry:
+    """Looks up what a wish names, and where its words stand."""
+    names = [name for name in (wish.a, wish.b, wish.a_in, wish.b_in, *wish.out) if name is not None]
+    span = instruction.find(wish.of)
+    return Entry(
+        wish,
+        kept,
+        span,
+        tuple(instruction.within(span)),
+        frozenset(kind for name in names if (kind := offered.type_of(name)) is not None),
+        frozenset(name for name in names if name in offered.rooms),
+    )
+
+
+def is_act(told: Told) -> bool:
+    """A verb that cannot be passed over."""
+    return told.word.kind in ACTS and told.word.meaning.base not in LIGHT
+
+
+def wish_faults(entry: Entry, instruction: Instruction, offered: Offered) -> list[str]:
+    """What is wrong with it; nothing where it may stand."""
+    unknown = list(_unknown_names(entry, offered))
+    if unknown:
+        return unknown
+    if not entry.span:
+        return [f"of '{_cut(entry.wish.of)}' is not in the instruction: copy words of it"]
+    faults = [
+        *_affordance(entry, offered),
+        *_unasked(entry),
+        *_stray(entry, instruction),
+        *_ungrounded(entry, instruction),
+        *_amount(entry, instruction),
+    ]
+    return list(dict.fromkeys(faults))
+
+
+def _cut(text: str) -> str:
+    return one_line(text, 60)
+
+
+def _unknown_names(entry: Entry, offered: Offered) -> Iterator[str]:
+    wish = entry.wish
+    if wish.p not in offered.predicates and not (entry.kept and wish.p == "touched"):
+        yield f"p cannot be '{_cut(wish.p)}'" + (" in goals: put it into keep" if wish.p == "touched" else "")
+    subjects = {*offered.types, *offered.rooms, *offered.things}
+    for name in (wish.a, *wish.out):
+        if name not in subjects and not (name == EVERYTHING and name == wish.a):
+            yield f"'{_cut(name)}' is not offered: choose an offered name, or put the operator's words into unknown"
+    places = {*offered.rooms, *offered.holders()}
+    for place in (wish.b, wish.a_in):
+        if place is not None and place not in places:
+            why = "holds nothing" if place in subjects else "is not offered"
+            yield f"'{_cut(place)}' {why}: b and a_in are rooms, or things to put something in or on"
+    if wish.b_in is not None and wish.b_in not in offered.rooms:
+        yield f"b_in '{_cut(wish.b_in)}' is no offered room"
+
+
+def _affordance(entry: Entry, offered: Offered) -> Iterator[str]:
+    """Fridges open, apples do not."""
+    flag = FLAG.get("in" if entry.wish.p in PLACED else entry.wish.p)
+    kind = offered.type_of(entry.wish.a)
+    if flag is not None and kind is not None and not type_row(kind).can(flag[0]):
+        yield f"{named(kind)} cannot be {flag[1]}: '{entry.wish.of}'"
+    if entry.wish.p not in PLACED and entry.wish.b is not None:
+        yield f"b is only for in and at, not for {entry.wish.p}"
+
+
+def _unasked(entry: Entry) -> Iterator[str]:
+    """A predicate for which nothing in its words speaks."""
+    denied = any(denies(told) for told in entry.told)
+    speaks = {predicate for told in entry.told for predicate in told.asks}
+    if denied:
+        speaks |= {OPPOSITE[predicate] for predicate in speaks if predicate in OPPOSITE}
+    acts = any(is_act(told) for told in entry.told)
+    same = {"in", "at"} if entry.wish.p in PLACED else {entry.wish.p}
+    if speaks & same:
+        return
+    strange = any(told.nameless and not told.asks for told in entry.told)
+    if entry.kept and entry.wish.p == "touched" and denied and not acts:
+        return
+    if acts or not (strange or (denied and entry.kept)):
+        yield f"'{_cut(entry.wish.of)}' does not ask for {entry.wish.p}: change p, or leave the goal out"
+    elif speaks and not strange:
+        yield f"'{_cut(entry.wish.of)}' speaks of {' or '.join(sorted(speaks))}, not of {entry.wish.p}"
+
+
+def _ungrounded(entry: Entry, instruction: Instruction) -> Iterator[str]:
+    """A type or a room that the operator did not name, in known words or in others."""
+    strange = any(told.nameless and not told.asks for told in entry.told) or any(
+        told.nameless and told.asks and told.word.kind in ("UNKNOWN", "MAYBE") and told.text in THINGS
+        for told in entry.told
+    )
+    named_types = {name for told in instruction.told for name in told.word.meaning.types}
+    discarded = any(told.word.kind == "DISCARD" or told.text in BINNING for told in entry.told)
+    for kind in sorted(entry.types - named_types):
+        if not strange and not (discarded and kind == "GarbageCan"):
+            yield f"no word of '{_cut(entry.wish.of)}' names {called(kind)}"
+    if (
+        entry.everything
+        and not strange
+        and all(told.word.kind not in ("EVERYTHING", "ONES", "NOTHING", "ALL") for told in entry.told)
+    ):
+        yield f"'{_cut(entry.wish.of)}' does not say everything"
+    rooms = {id for told in instruction.told if told.word.kind in ("ROOM", "ROOMWORD") for id in told.word.meaning.ids}
+    wide = any(told.word.kind in ("HOUSE", "ANYWHERE") or told.text in WIDE for told in instruction.told)
+    for room in sorted(entry.rooms - rooms):
+        if not strange and not wide:
+            yield f"no word of '{_cut(entry.wish.of)}' names {room}"
+
+
+BINNING = frozenset({"bin", "trash", "toss", "ditch", "rid", "chuck"})
+THINGS = frozenset({"coffee", "dishes", "dark", "light", "lights", "home", "gloomy", "dim", "loud"})
+WIDE = frozenset({"everywhere", "round", "rounds", "place", "upstairs", "downstairs", "around", "indoors"})
+
+
+def _stray(entry: Entry, instruction: Instruction) -> Iterator[str]:
+    """Strange words in a quotation stand for something in the goal, or they hide what it does not do."""
+    runs: list[list[Told]] = []
+    for told in entry.told:
+        if told.nameless and not told.asks and not denies(told):
+            if runs and max(runs[-1][-1].at) + 1 == min(told.at):
+                runs[-1].append(told)
+            else:
+                runs.append([told])
+    known = {name for told in instruction.told for name in told.word.meaning.types}
+    rooms = {id for told in instruction.told for id in told.word.meaning.ids}
+    speaks = any(told.asks for told in entry.told if told.word.kind not in ALSO)
+    explained = len(entry.types - known) + len(entry.rooms - rooms) + (not speaks) + entry.everything
+    for run in runs[explained:]:
+        words = " ".join(told.word.text for told in run)
+        yield f"'{words}' has no part in {entry.wish.p} {entry.wish.a}: quote only the goal's own words"
+
+
+def _amount(entry: Entry, instruction: Instruction) -> Iterator[str]:
+    """Every one, so many, or one: as the noun is said."""
+    wish = entry.wish
+    if entry.kept or wish.a == EVERYTHING:
+        return
+    for index, told in enumerate(instruction.told):
+        if told.at <= entry.span and told.word.kind == "NOUN" and _subject(told, wish, instruction.told[:index]):
+            yield from _noun_amount(told, wish, instruction.told[max(index - 4, 0) : index])
+            return
+
+
+def _subject(told: Told, wish: Wish, before: Sequence[Told]) -> bool:
+    """The noun is what the goal is about, and not an exception from it."""
+    return wish.a in told.word.meaning.types and not any(t.word.kind in ("EXCEPT", "ALLBUT") for t in before[-3:])
+
+
+def _noun_amount(told: Told, wish: Wish, before: Sequence[Told]) -> Iterator[str]:
+    quantifiers = _before_noun(before)
+    number = next((int(t.word.meaning.base) for t in quantifiers if t.word.kind == "NUM"), None)
+    if any(t.word.kind == "BOTH" for t in quantifiers):
+        number = 2
+    if number is not None and number > 1:
+        if wish.n != number:
+            yield f"'{told.text}' are {number}: n must be {number}"
+        return
+    if number == 1 or any(t.word.kind in ("ONES", "OF") for t in quantifiers):
+        return
+    every = told.word.meaning.plural or any(t.word.kind in ("ALL", "NO") for t in quantifiers)
+    if every and not wish.all:
+        yield f"'{told.text}' means every one: all must be true"
+    if not every and (wish.all or (wish.n or 1) > 1):
+        yield f"'{told.text}' is one: leave out all and n"
+
+
+def _before_noun(before: Sequence[Told]) -> list[Told]:
+    """The words just before a noun that say how many: back to the first that is none of them."""
+    found: list[Told] = []
+    for told in reversed(before):
+        if told.word.kind not in (
+            "THE",
+            "ALL",
+            "BOTH",
+            "NUM",
+            "OF",
+            "NO",
+            "ONES",
+            "ADJ",
+            "DIRTY",
+            "ISCLEAN",
+            "CLEAN",
+            "OPEN",
+            "ISOPEN",
+            "ISCLOSED",
+        ):
+            break
+        found.append(told)
+    return found

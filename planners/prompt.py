@@ -27,7 +27,17 @@ LOW_BATTERY = 0.3
 KINDS = frozenset({"quadruped", "drone"})
 """Robots that need no quotation marks."""
 _MARKS = str.maketrans(
-    {**dict.fromkeys('"“”„‟«»`´‘’', "'"), "<": "(", ">": ")", "{": "(", "}": ")", "|": "/", "\\": "/"}
+    {
+        **dict.fromkeys('"“”„‟«»`´‘’', "'"),
+        "<": "(",
+        ">": ")",
+        "{": "(",
+        "}": ")",
+        "[": "(",
+        "]": ")",
+        "|": "/",
+        "\\": "/",
+    }
 )
 
 

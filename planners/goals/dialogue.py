@@ -7,7 +7,7 @@ reply got wrong another may have right, so goals that nobody objects to are kept
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from planners.asking import Answer, Model, Question
+from planners.asking import Answer, Model, ModelFailed, Question, rejected
 from planners.goals.offered import Offered, schema, user_text
 from planners.goals.reply import Misshapen, Reply, Wish, read_reply
 from planners.goals.translate import Untranslatable, goals_of
@@ -39,14 +39,14 @@ class Judged:
 
 
 class Dialogue:
-    """Ends with goals, or raises Unclear; `calls` has a record of every answer."""
+    """Ends with goals, or raises; `calls` has a record of every answer."""
 
     def __init__(self, model: Model, offered: Offered, instruction: Instruction, world: WorldState) -> None:
         self._model, self._offered, self._instruction, self._world = model, offered, instruction, world
         self.calls: list[ModelCall] = []
 
     def goals(self) -> tuple[Goal, ...]:
-        """Raises Unclear where the model asks or gives up, or cannot be brought to a reply that holds; ModelFailed."""
+        """Raises Unclear where the model asks or gives up, ModelFailed where no reply of it holds."""
         user = user_text(self._offered, self._instruction.text)
         asked, judged, replies = user, Judged(None), list[Reply]()
         for attempt, temperature in enumerate(TEMPERATURES):
@@ -67,7 +67,7 @@ class Dialogue:
                 if each.goals and not each.faults:
                     return each.goals
             asked = f"{user}\n{_objections(answer.text, judged.faults)}"
-        raise Unclear(f"no goals could be made of it: {judged.faults[0]}", self._instruction.text)
+        raise ModelFailed(f"no goals could be made of it: {judged.faults[0]}", rejected(answer))
 
     def _hear(self, answer: Answer) -> Judged:
         try:
@@ -76,8 +76,7 @@ class Dialogue:
             judged = Judged(None, faults=(str(fault),))
         else:
             judged = self._judge(reply)
-        outcome = "invalid" if judged.faults else answer.call.outcome
-        self.calls.append(answer.call.model_copy(update={"outcome": outcome}))
+        self.calls.append(rejected(answer) if judged.faults else answer.call)
         if judged.reply is not None and not judged.faults:
             _end_without_goals(judged.reply)
         return judged

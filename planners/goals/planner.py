@@ -20,7 +20,7 @@ NAME = "goals"
 
 
 class GoalsPlanner:
-    """See planners.planner.Planner. Raises ModelFailed where there is no answer of the model."""
+    """See planners.planner.Planner. Raises ModelFailed where the model has no answer, or none that holds."""
 
     def __init__(self, site: Site, model: Model) -> None:
         self._tasks = TaskPlanner(site, NAME)
@@ -40,8 +40,7 @@ class GoalsPlanner:
                 reason=unclear.reason[:TEXT_LIMIT], part=unclear.part[:TEXT_LIMIT], question=unclear.question
             )
             return PlanReply(task=request.task, epoch=request.epoch, refusal=refusal, calls=tuple(calls))
-        tokens = (sum(call.prompt_tokens for call in calls), sum(call.completion_tokens for call in calls))
-        return self._tasks.plan(request, goals, tokens).model_copy(update={"calls": tuple(calls)})
+        return self._tasks.plan(request, goals).model_copy(update={"calls": tuple(calls)})
 
     def read(self, request: PlanRequest, calls: list[ModelCall]) -> tuple[Goal, ...]:
         """By the grammar, else by the model, whose calls are added to `calls`. Raises Unclear, ModelFailed."""

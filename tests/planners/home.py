@@ -20,11 +20,21 @@ SWITCHED = (
     ("FloorLamp", "living-room"),
     ("DeskLamp", "bedroom-1"),
 )
+UNSEEN = (
+    *(("Pillow", "bed-1"), ("Pillow", "bed-2"), ("Pillow", "sofa-1"), ("CellPhone", "bed-2"), ("TeddyBear", "bed-2")),
+    *(
+        ("RemoteControl", "tvstand-1"),
+        ("Potato", "sink-1"),
+        ("WineBottle", "diningtable-1"),
+        ("Bowl", "shelvingunit-1"),
+    ),
+    *(("Lettuce", "fridge-1"), ("Mug", "coffeetable-1")),
+)
 DIRTY, OPEN = ("mug-1", "plate-1"), ("laptop-1", "fridge-1")
 
 
 def home(seed: int = 11) -> House:
-    """Everything is known: a robot has seen it all."""
+    """A robot has seen the thirty; others are there and nobody knows of them yet."""
     house = House(seed, dogs=2)
     for type, room in FURNITURE:
         house.add(type, room)
@@ -38,6 +48,8 @@ def home(seed: int = 11) -> House:
         house.things[id].props["isOpen"] = True
     for thing in house.things.values():
         house.see(house.dogs[0], thing)
+    for type, holder in UNSEEN:
+        house.add(type, house.things[holder].room, holder)
     return house
 
 

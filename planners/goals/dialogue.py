@@ -8,11 +8,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planners.asking import Answer, Model, ModelFailed, Question, rejected
+from planners.goals.merging import merged
 from planners.goals.offered import Offered, schema, user_text
-from planners.goals.reply import Misshapen, Reply, Wish, read_reply
+from planners.goals.reply import Misshapen, Reply, read_reply
 from planners.goals.translate import Untranslatable, goals_of
 from planners.goals.whole import reply_faults
-from planners.goals.wishes import Entry, entry_of, wish_faults
+from planners.goals.wishes import entry_of, wish_faults
 from planners.goals.words import Instruction
 from planners.prompt import one_line, system_prompt
 from planners.scripted.agreement import agree
@@ -63,9 +64,9 @@ class Dialogue:
             judged = self._hear(answer)
             if judged.reply is not None:
                 replies.append(judged.reply)
-            for each in (judged, self._merged(replies)) if len(replies) > 1 else (judged,):
-                if each.goals and not each.faults:
-                    return each.goals
+            goals = judged.goals or self._of_all(replies)
+            if goals:
+                return goals
             asked = f"{user}\n{_objections(answer.text, judged.faults)}"
         raise ModelFailed(f"no goals could be made of it: {judged.faults[0]}", rejected(answer))
 
@@ -81,6 +82,11 @@ class Dialogue:
             _end_without_goals(judged.reply)
         return judged
 
+    def _of_all(self, replies: Sequence[Reply]) -> tuple[Goal, ...]:
+        """The goals of several replies together, where there is nothing against these."""
+        both = merged(replies, self._instruction, self._offered) if len(replies) > 1 else None
+        return self._judge(both).goals if both is not None else ()
+
     def _judge(self, reply: Reply) -> Judged:
         """Everything that code can know to be wrong with a reply."""
         strange = [words for words in reply.unknown if not self._instruction.find(words)]
@@ -88,10 +94,10 @@ class Dialogue:
             return Judged(reply, faults=(f"unknown '{one_line(strange[0], 60)}' is not in the instruction",))
         if reply.ask.strip() or reply.unknown:
             return Judged(reply)
-        entries = [entry_of(wish, kept, self._instruction, self._offered) for wish, kept in _wishes(reply)]
+        entries = [entry_of(wish, kept, self._instruction, self._offered) for wish, kept in reply.wishes()]
         faults = [fault for entry in entries for fault in wish_faults(entry, self._instruction, self._offered)]
         if not faults:
-            faults = reply_faults(reply, entries, self._instruction, self._offered)
+            faults = reply_faults(reply, entries, self._instruction)
         if faults:
             return Judged(reply, faults=tuple(dict.fromkeys(faults)))
         try:
@@ -99,23 +105,6 @@ class Dialogue:
         except (Untranslatable, Unclear) as fault:
             return Judged(reply, faults=(str(fault),))
         return Judged(reply, told_apart(goals, {area.id: area.name for area in self._world.areas}))
-
-    def _merged(self, replies: Sequence[Reply]) -> Judged:
-        """All goals to which nobody objects, of all replies; judged like one that a model gave."""
-        goals, keep = list[Wish](), list[Wish]()
-        for reply in reversed(replies):
-            for wish, kept in _wishes(reply):
-                chosen = keep if kept else goals
-                entry: Entry = entry_of(wish, kept, self._instruction, self._offered)
-                known = any((w.p, w.a, w.b, w.a_in) == (wish.p, wish.a, wish.b, wish.a_in) for w in chosen)
-                if not known and not wish_faults(entry, self._instruction, self._offered):
-                    chosen.append(wish)
-        talk = tuple(dict.fromkeys(words for reply in replies for words in reply.talk if self._instruction.find(words)))
-        return self._judge(Reply(goals=tuple(goals), keep=tuple(keep), talk=talk[:8]))
-
-
-def _wishes(reply: Reply) -> list[tuple[Wish, bool]]:
-    return [*((wish, False) for wish in reply.goals), *((wish, True) for wish in reply.keep)]
 
 
 def _end_without_goals(reply: Reply) -> None:

@@ -25,11 +25,6 @@ class Wish(BaseModel):
     out: tuple[str, ...] = Field(default=(), alias="except", max_length=6, strict=False)
     step: int | None = Field(default=None, ge=1, le=MOST_GOALS)
 
-    @property
-    def key(self) -> tuple[object, ...]:
-        """What it asks for, however it was quoted."""
-        return (self.p, self.a, self.b, self.a_in, self.b_in, self.all, self.n, self.out, self.step)
-
 
 class Reply(BaseModel):
     """The whole of it."""
@@ -41,6 +36,10 @@ class Reply(BaseModel):
     talk: tuple[str, ...] = Field(default=(), max_length=8, strict=False)
     unknown: tuple[str, ...] = Field(default=(), max_length=8, strict=False)
     ask: str = Field(default="", max_length=400)
+
+    def wishes(self) -> list[tuple[Wish, bool]]:
+        """Goals, then restraints; with True for a restraint."""
+        return [*((wish, False) for wish in self.goals), *((wish, True) for wish in self.keep)]
 
 
 class Misshapen(Exception):

@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from planners.goals.offered import Offered
 from planners.goals.reply import Reply
-from planners.goals.wishes import Entry, is_act
+from planners.goals.wishes import Entry, is_act, quantifiers_before
 from planners.goals.words import ASKED_BY, DENYING, NAMING, OPPOSITE, Instruction, Told, denies, excepts
 from planners.scripted.resolve import FLAG
 from wire.catalogue import type_row
@@ -13,15 +12,18 @@ STATED = frozenset({"on", "off", "open", "closed", "clean", "in", "at"})
 ORDERING = frozenset({"THEN", "BEFORE", "AFTER"})
 
 
-def reply_faults(reply: Reply, entries: Sequence[Entry], instruction: Instruction, offered: Offered) -> list[str]:
+def reply_faults(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> list[str]:
     """What is missing in it, or stands in the wrong list; one sentence each."""
     talk = frozenset(i for words in reply.talk for i in instruction.find(words))
     faults = [*_talk(reply, entries, instruction)]
-    for told in instruction.told:
+    for index, told in enumerate(instruction.told):
         if told.at <= talk and not (told.word.kind in NAMING and _relevant(told, entries)):
             continue
         covering = [entry for entry in entries if told.at <= entry.span]
-        faults += _uncovered(told, covering, instruction, offered)
+        every = told.word.meaning.plural or any(
+            before.word.kind in ("ALL", "BOTH", "NO") for before in quantifiers_before(instruction.told[:index])
+        )
+        faults += _uncovered(told, covering, every)
     faults += _order([entry for entry in entries if not entry.kept], instruction, talk)
     return list(dict.fromkeys(faults))
 
@@ -51,10 +53,10 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
                 yield f"'{told.text}' in talk names a room: make a goal of it, or put the words into unknown"
 
 
-def _uncovered(told: Told, covering: Sequence[Entry], instruction: Instruction, offered: Offered) -> Iterator[str]:
+def _uncovered(told: Told, covering: Sequence[Entry], every: bool) -> Iterator[str]:
     kind, meaning = told.word.kind, told.word.meaning
     if kind in ("NOUN", "ID"):
-        yield from _noun(told, covering)
+        yield from _noun(told, covering, every)
     elif kind == "ROOM":
         missing = set(meaning.ids) - {room for entry in covering for room in entry.rooms}
         if missing and (meaning.plural or missing == set(meaning.ids)):
@@ -74,13 +76,13 @@ def _uncovered(told: Told, covering: Sequence[Entry], instruction: Instruction, 
         yield from _denial(told, covering)
 
 
-def _noun(told: Told, covering: Sequence[Entry]) -> Iterator[str]:
+def _noun(told: Told, covering: Sequence[Entry], every: bool) -> Iterator[str]:
     """One type of those that it may mean; all of them where it is said of all."""
     used = {name for entry in covering for name in entry.types}
     wanted = set(told.word.meaning.types)
     if not used & wanted:
         yield f"'{told.text}' is in no goal: it must be a, b, a_in or in except"
-    elif told.word.meaning.plural and len(wanted) > 1:
+    elif every and len(wanted) > 1:
         flags = [FLAG.get(entry.wish.p) for entry in covering if not entry.kept]
         able = {t for t in wanted if all(flag is None or type_row(t).can(flag[0]) for flag in flags)}
         for name in sorted(able - used):
@@ -125,6 +127,9 @@ def _order(goals: Sequence[Entry], instruction: Instruction, talk: frozenset[int
             continue
         left = [entry.wish.step or 0 for entry in goals if max(entry.span) < min(told.at)]
         right = [entry.wish.step or 0 for entry in goals if min(entry.span) > max(told.at)]
+        if left and right and 0 in (*left, *right):
+            yield f"'{told.text}' asks for an order: every goal before and after it needs a step"
+            continue
         first, second = (right, left) if told.word.kind == "AFTER" else (left, right)
         if first and second and max(first) >= min(second):
             yield f"'{told.text}' asks for another order: what comes first has the lower step"

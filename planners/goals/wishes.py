@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from planners.goals.offered import EVERYTHING, Offered
 from planners.goals.reply import Wish
-from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, denies
+from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, cues, denies
 from planners.prompt import one_line
 from planners.scripted.resolve import FLAG, named
 from wire.catalogue import type_row
@@ -122,10 +123,15 @@ def _affordance(entry: Entry, offered: Offered) -> Iterator[str]:
 def _unasked(entry: Entry) -> Iterator[str]:
     """A predicate for which nothing in its words speaks."""
     denied = any(denies(told) for told in entry.told)
-    speaks = {predicate for told in entry.told for predicate in told.asks}
+    speaks = {predicate for told in entry.told if told.word.kind != "TURN" for predicate in told.asks}
+    speaks |= _turned(entry.told)
     if denied:
         speaks |= {OPPOSITE[predicate] for predicate in speaks if predicate in OPPOSITE}
     acts = any(is_act(told) for told in entry.told)
+    particle = _before_turning(entry.told)
+    if particle is not None and not denied and entry.wish.p == OPPOSITE[particle]:
+        yield f"'{_cut(entry.wish.of)}' asks for {particle}, not for {entry.wish.p}"
+        return
     same = {"in", "at"} if entry.wish.p in PLACED else {entry.wish.p}
     if speaks & same:
         return
@@ -138,14 +144,28 @@ def _unasked(entry: Entry) -> Iterator[str]:
         yield f"'{_cut(entry.wish.of)}' speaks of {' or '.join(sorted(speaks))}, not of {entry.wish.p}"
 
 
+def _turned(told: Sequence[Told]) -> set[str]:
+    """ "Turn off", "turn the TV off": the particle says which; without one it may be either."""
+    if all(word.word.kind != "TURN" for word in told):
+        return set()
+    said = {word.text for word in told} & {"on", "off"}
+    return said or {"on", "off"}
+
+
+def _before_turning(told: Sequence[Told]) -> str | None:
+    """The particle that stands right after the verb; an "on" further on may be a place."""
+    for verb, particle in pairwise(told):
+        if verb.word.kind == "TURN" and particle.text in ("on", "off"):
+            return particle.text
+    return None
+
+
 def _ungrounded(entry: Entry, instruction: Instruction) -> Iterator[str]:
     """A type or a room that the operator did not name, in known words or in others."""
-    strange = any(told.nameless and not told.asks for told in entry.told) or any(
-        told.nameless and told.asks and told.word.kind in ("UNKNOWN", "MAYBE") and told.text in THINGS
-        for told in entry.told
-    )
+    hints = cues()["hints"]
+    strange = any(told.nameless and (not told.asks or told.text in hints["things"]) for told in entry.told)
     named_types = {name for told in instruction.told for name in told.word.meaning.types}
-    discarded = any(told.word.kind == "DISCARD" or told.text in BINNING for told in entry.told)
+    discarded = any(told.word.kind == "DISCARD" or told.text in hints["binned"] for told in entry.told)
     for kind in sorted(entry.types - named_types):
         if not strange and not (discarded and kind == "GarbageCan"):
             yield f"no word of '{_cut(entry.wish.of)}' names {called(kind)}"
@@ -156,15 +176,10 @@ def _ungrounded(entry: Entry, instruction: Instruction) -> Iterator[str]:
     ):
         yield f"'{_cut(entry.wish.of)}' does not say everything"
     rooms = {id for told in instruction.told if told.word.kind in ("ROOM", "ROOMWORD") for id in told.word.meaning.ids}
-    wide = any(told.word.kind in ("HOUSE", "ANYWHERE") or told.text in WIDE for told in instruction.told)
+    wide = any(told.word.kind in ("HOUSE", "ANYWHERE") or told.text in hints["wide"] for told in instruction.told)
     for room in sorted(entry.rooms - rooms):
         if not strange and not wide:
             yield f"no word of '{_cut(entry.wish.of)}' names {room}"
-
-
-BINNING = frozenset({"bin", "trash", "toss", "ditch", "rid", "chuck"})
-THINGS = frozenset({"coffee", "dishes", "dark", "light", "lights", "home", "gloomy", "dim", "loud"})
-WIDE = frozenset({"everywhere", "round", "rounds", "place", "upstairs", "downstairs", "around", "indoors"})
 
 
 def _stray(entry: Entry, instruction: Instruction) -> Iterator[str]:
@@ -202,7 +217,7 @@ def _subject(told: Told, wish: Wish, before: Sequence[Told]) -> bool:
 
 
 def _noun_amount(told: Told, wish: Wish, before: Sequence[Told]) -> Iterator[str]:
-    quantifiers = _before_noun(before)
+    quantifiers = quantifiers_before(before)
     number = next((int(t.word.meaning.base) for t in quantifiers if t.word.kind == "NUM"), None)
     if any(t.word.kind == "BOTH" for t in quantifiers):
         number = 2
@@ -219,7 +234,7 @@ def _noun_amount(told: Told, wish: Wish, before: Sequence[Told]) -> Iterator[str
         yield f"'{told.text}' is one: leave out all and n"
 
 
-def _before_noun(before: Sequence[Told]) -> list[Told]:
+def quantifiers_before(before: Sequence[Told]) -> list[Told]:
     """The words just before a noun that say how many: back to the first that is none of them."""
     found: list[Told] = []
     for told in reversed(before):

@@ -11,7 +11,7 @@ from planners.scripted.syntax import Unclear
 from wire.messages.world import WorldState
 from wire.names import called
 
-_PROGRAMS = re.compile(r"<[|/]?\w+[|/]?>|\[/?[A-Z]{3,}\]|```|[{}\\]|^\s*(system|assistant|user)\s*:", re.I | re.M)
+_PROGRAMS = re.compile(r"<[|/]?\w+[|/]?>|\[/?[A-Z]{3,}\]|```|[][{}=\\]|\b(system|assistant|user)\s*:", re.I)
 """What opens a turn of a chat, or a value of a program: nobody says such a thing to a robot."""
 
 

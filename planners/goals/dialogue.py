@@ -76,7 +76,7 @@ class Dialogue:
         except Misshapen as fault:
             judged = Judged(None, faults=(str(fault),))
         else:
-            judged = self._judge(reply)
+            judged = self.judge(reply)
         self.calls.append(rejected(answer) if judged.faults else answer.call)
         if judged.reply is not None and not judged.faults:
             _end_without_goals(judged.reply)
@@ -85,9 +85,9 @@ class Dialogue:
     def _of_all(self, replies: Sequence[Reply]) -> tuple[Goal, ...]:
         """The goals of several replies together, where there is nothing against these."""
         both = merged(replies, self._instruction, self._offered) if len(replies) > 1 else None
-        return self._judge(both).goals if both is not None else ()
+        return self.judge(both).goals if both is not None else ()
 
-    def _judge(self, reply: Reply) -> Judged:
+    def judge(self, reply: Reply) -> Judged:
         """Everything that code can know to be wrong with a reply."""
         strange = [words for words in reply.unknown if not self._instruction.find(words)]
         if strange:

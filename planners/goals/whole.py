@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from planners.goals.reply import Reply
 from planners.goals.wishes import Entry, is_act, quantifiers_before
-from planners.goals.words import ASKED_BY, DENYING, NAMING, OPPOSITE, Instruction, Told, denies, excepts
+from planners.goals.words import ASKED_BY, DENYING, NAMING, OPPOSITE, Instruction, Told, denies, excepts, negates
+from planners.prompt import one_line
 from planners.scripted.resolve import FLAG
 from wire.catalogue import type_row
 
@@ -40,17 +41,26 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
     for words in reply.talk:
         span = instruction.find(words)
         if not span:
-            yield f"talk '{words[:60]}' is not in the instruction"
-        for told in instruction.within(span):
+            yield f"talk '{one_line(words, 60)}' is not in the instruction"
+        inside = instruction.within(span)
+        if _commands(inside):
+            yield f"talk '{one_line(words, 60)}' may ask for something: put what no name fits into unknown"
+        for told in inside:
             if any(told.at <= entry.span for entry in entries):
                 continue
             meaning = told.word.meaning
-            if is_act(told):
+            if is_act(told) or told.word.kind == "EVERYTHING":
                 yield f"'{told.text}' in talk asks for something: make a goal of it"
             elif told.word.kind in ("NOUN", "ID") and not types & set(meaning.types):
                 yield f"'{told.text}' in talk names a thing: make a goal of it, or put the words into unknown"
             elif told.word.kind == "ROOM" and not rooms & set(meaning.ids):
                 yield f"'{told.text}' in talk names a room: make a goal of it, or put the words into unknown"
+
+
+def _commands(inside: Sequence[Told]) -> bool:
+    """A strange word with an object at the beginning: "feed the goldfish"."""
+    first = inside[:2]
+    return len(inside) > 2 and first[0].nameless and first[1].word.kind == "THE"
 
 
 def _uncovered(told: Told, covering: Sequence[Entry], every: bool) -> Iterator[str]:
@@ -111,7 +121,7 @@ def _heeds(told: Told, entry: Entry) -> bool:
     if told.word.kind == "LEAVE":
         return entry.wish.p in STATED
     later = {p for other in entry.told if min(other.at) > min(told.at) and not is_act(other) for p in other.asks}
-    if told.word.kind in DENYING or told.text in ("dont", "wont", "cannot"):
+    if negates(told):
         return entry.wish.p in {OPPOSITE[p] for p in later if p in OPPOSITE}
     return bool(later) and entry.wish.p in later and not excepts(told)
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from planners.goals.offered import EVERYTHING, Offered
 from planners.goals.reply import Wish
-from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, cues, denies
+from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, cues, denies, negates
 from planners.prompt import one_line
 from planners.scripted.resolve import FLAG, named
 from wire.catalogue import type_row
@@ -125,7 +125,7 @@ def _unasked(entry: Entry) -> Iterator[str]:
     denied = any(denies(told) for told in entry.told)
     speaks = {predicate for told in entry.told if told.word.kind != "TURN" for predicate in told.asks}
     speaks |= _turned(entry.told)
-    if denied:
+    if any(negates(told) for told in entry.told):
         speaks |= {OPPOSITE[predicate] for predicate in speaks if predicate in OPPOSITE}
     acts = any(is_act(told) for told in entry.told)
     particle = _before_turning(entry.told)
@@ -138,10 +138,8 @@ def _unasked(entry: Entry) -> Iterator[str]:
     strange = any(told.nameless and not told.asks for told in entry.told)
     if entry.kept and entry.wish.p == "touched" and denied and not acts:
         return
-    if acts or not (strange or (denied and entry.kept)):
+    if acts or not strange:
         yield f"'{_cut(entry.wish.of)}' does not ask for {entry.wish.p}: change p, or leave the goal out"
-    elif speaks and not strange:
-        yield f"'{_cut(entry.wish.of)}' speaks of {' or '.join(sorted(speaks))}, not of {entry.wish.p}"
 
 
 def _turned(told: Sequence[Told]) -> set[str]:
@@ -175,6 +173,10 @@ def _ungrounded(entry: Entry, instruction: Instruction) -> Iterator[str]:
         and all(told.word.kind not in ("EVERYTHING", "ONES", "NOTHING", "ALL") for told in entry.told)
     ):
         yield f"'{_cut(entry.wish.of)}' does not say everything"
+    if entry.everything:
+        for told in entry.told:
+            if told.word.kind == "NOUN" and not entry.types & set(told.word.meaning.types):
+                yield f"'{told.text}' is one thing and not everything: make it a, or leave it out of the quotation"
     rooms = {id for told in instruction.told if told.word.kind in ("ROOM", "ROOMWORD") for id in told.word.meaning.ids}
     wide = any(told.word.kind in ("HOUSE", "ANYWHERE") or told.text in hints["wide"] for told in instruction.told)
     for room in sorted(entry.rooms - rooms):

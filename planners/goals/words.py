@@ -86,6 +86,8 @@ class Told:
         """The predicates that it may ask for."""
         if self.word.kind in ASKED_BY:
             return ASKED_BY[self.word.kind]
+        if self.word.kind in NAMING:
+            return frozenset()
         known = ALSO.get(self.word.kind, frozenset())
         return known | {predicate for predicate, words in cues()["asks"].items() if self.text in words}
 
@@ -97,11 +99,12 @@ class Instruction:
         self.text = one_line(text, INSTRUCTION_LIMIT)
         raw = list(_RAW.finditer(self.text))
         self._words = [match.group().lower() for match in raw]
-        self.told = [
+        told = (
             Told(word, frozenset(i for i, m in enumerate(raw) if m.start() < word.end and word.start < m.end()))
             for word in Lexicon(world).words(self.text)
             if word.kind not in ("COMMA", "STOP")
-        ]
+        )
+        self.told = [each for each in told if each.at]
 
     def find(self, words: str) -> frozenset[int]:
         """Where quoted words stand: in one piece if they do, else in their order; nowhere if one is not the operator's."""
@@ -130,6 +133,11 @@ class Instruction:
 def denies(told: Told) -> bool:
     """Whether a word takes something out of what is asked for."""
     return told.word.kind in DENYING or excepts(told) or told.text in cues()["denies"]["words"]
+
+
+def negates(told: Told) -> bool:
+    """Whether a word turns a state into its opposite."""
+    return told.word.kind in DENYING or told.text in ("dont", "wont", "cannot")
 
 
 def excepts(told: Told) -> bool:

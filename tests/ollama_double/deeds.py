@@ -103,6 +103,7 @@ class Understanding:
         """Fills in the wishes of a clause."""
         deed = self._deed_of(clause)
         if deed is None:
+            self._hear_command(clause)
             return
         denied = bool(clause.all("deny"))
         subjects, place = self._parts(clause, deed)
@@ -125,6 +126,16 @@ class Understanding:
         clause.wishes = [wish for wish in wishes if wish is not None]
         self._last = [{k: v for k, v in s.items() if k in ("a", "all", "n", "a_in")} for s in subjects]
         self._last += [{"a": place["b"]}] if "b" in place else []
+
+    def _hear_command(self, clause: Clause) -> None:
+        """ "Feed the goldfish": no word that it knows, and still something to do."""
+        words = [item.text for item in clause.items if item.text.lower() not in IDLE - ARTICLES]
+        if (
+            len(words) > 2
+            and words[1].lower() in ARTICLES
+            and words[0].lower() not in ("be", "pardon", "forgive", "excuse")
+        ):
+            self.unknown.append(words[2])
 
     def _deed_of(self, clause: Clause) -> str | None:
         states = [item.value[0] for item in clause.all("state")]

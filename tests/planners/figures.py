@@ -8,7 +8,7 @@ through, the others how much of a model's errors that code makes good.
 import argparse
 import json
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 
 from planners.asking import ModelFailed
 from planners.goals.planner import GoalsPlanner
@@ -47,6 +47,9 @@ class Tally:
     """Exact, and carried out in the toy house until the goals held in truth."""
     calls: int = 0
 
+    def __add__(self, other: "Tally") -> "Tally":
+        return Tally(*(mine + theirs for mine, theirs in zip(astuple(self), astuple(other), strict=True)))
+
 
 def outcome(row: Row, model: EmulatedModel) -> str:
     """What the planner makes of an instruction, in the notation of the corpus."""
@@ -70,19 +73,17 @@ def carried_out(row: Row, model: EmulatedModel) -> bool:
     return not row.refused and all(holds(goal, house.truth()) for goal in goals)
 
 
-def tally(dials: Dials, only: str = "", execute: bool = True) -> Tally:
+def tally(dials: Dials, by: str, execute: bool = True) -> Tally:
+    """Over the rows that are read by the grammar, or by the model."""
     total = Tally()
     for row in rows():
-        if only and row.by != only:
+        if row.by != by:
             continue
         model = EmulatedModel(dials)
         got = outcome(row, model)
-        total.tasks += 1
-        total.calls += len(model.said)
         exact = got == row.want or (row.refused and got in ("!", "?"))
-        total.exact += exact
-        total.wrong += not exact and got not in ("!", "?")
-        total.done += exact and (not execute or carried_out(row, EmulatedModel(dials)))
+        done = exact and execute and carried_out(row, EmulatedModel(dials))
+        total += Tally(1, exact, not exact and got not in ("!", "?"), done, len(model.said))
     return total
 
 
@@ -107,20 +108,23 @@ def replan_calls() -> int:
 
 def figures(seeds: int, execute: bool) -> dict[str, object]:
     counts = prompt_tokens()
-    clean = {by: asdict(tally(Dials(), by, execute)) for by in ("", "model")}
-    spoilt = {}
-    for name, rate in (("30 % of replies", MIXED), ("every kind 30 %", 0.3)):
-        for by in ("", "model"):
-            runs = [tally(Dials(seed=seed, **dict.fromkeys(KINDS, rate)), by, execute) for seed in range(seeds)]
-            sums = {key: sum(getattr(t, key) for t in runs) for key in asdict(runs[0])}
-            spoilt[f"{name}, {by or 'all'} rows"] = sums
+    grammar = tally(Dials(), "grammar", execute)
+    runs = {"none": [tally(Dials(), "model", execute)]}
+    for name, rate in (("in 3 replies of 10", MIXED), ("each kind in 3 of 10", 0.3)):
+        runs[name] = [tally(Dials(seed=n, **dict.fromkeys(KINDS, rate)), "model", execute) for n in range(seeds)]
     return {
         "known_things": len(home_world().objects),
         "counted_by": COUNTER.name,
         "prompt_tokens": {"median": counts[len(counts) // 2], "largest": counts[-1], "questions": len(counts)},
         "calls_of_replans": replan_calls(),
-        "without_errors": {by or "all": row for by, row in clean.items()},
-        "with_errors": spoilt,
+        "read_by_the_grammar": asdict(grammar),
+        "errors": {
+            name: {
+                "model_rows": asdict(sum(found, Tally())),
+                "all_rows": asdict(sum((grammar + f for f in found), Tally())),
+            }
+            for name, found in runs.items()
+        },
     }
 
 

@@ -23,7 +23,7 @@ SWITCHED = (
 UNSEEN = (
     *(("Pillow", "bed-1"), ("Pillow", "bed-2"), ("Pillow", "sofa-1"), ("CellPhone", "bed-2"), ("TeddyBear", "bed-2")),
     *(
-        ("RemoteControl", "tvstand-1"),
+        ("RemoteControl", "coffeetable-1"),
         ("Potato", "sink-1"),
         ("WineBottle", "diningtable-1"),
         ("Bowl", "shelvingunit-1"),

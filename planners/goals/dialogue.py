@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from planners.asking import Answer, Model, ModelFailed, Question, rejected
 from planners.goals.merging import merged
 from planners.goals.offered import Offered, schema, user_text
+from planners.goals.pronouns import check_pronouns
 from planners.goals.reply import Misshapen, Reply, read_reply
 from planners.goals.translate import Untranslatable, goals_of
 from planners.goals.whole import reply_faults
@@ -68,15 +69,16 @@ class Dialogue:
             if goals:
                 return goals
             asked = f"{user}\n{_objections(answer.text, judged.faults)}"
-        raise ModelFailed(f"no goals could be made of it: {judged.faults[0]}", rejected(answer))
+        raise ModelFailed(f"no goals could be made of it: {judged.faults[0]}", self.calls[-1], rejects=self.calls[:-1])
 
     def _hear(self, answer: Answer) -> Judged:
         try:
-            reply = read_reply(answer.text)
+            judged = self.judge(read_reply(answer.text))
         except Misshapen as fault:
             judged = Judged(None, faults=(str(fault),))
-        else:
-            judged = self.judge(reply)
+        except Unclear:
+            self.calls.append(answer.call)
+            raise
         self.calls.append(rejected(answer) if judged.faults else answer.call)
         if judged.reply is not None and not judged.faults:
             _end_without_goals(judged.reply)
@@ -88,7 +90,7 @@ class Dialogue:
         return self.judge(both).goals if both is not None else ()
 
     def judge(self, reply: Reply) -> Judged:
-        """Everything that code can know to be wrong with a reply."""
+        """Everything that code can know to be wrong with a reply. Raises Unclear where only the operator can choose."""
         strange = [words for words in reply.unknown if not self._instruction.find(words)]
         if strange:
             return Judged(reply, faults=(f"unknown '{one_line(strange[0], 60)}' is not in the instruction",))
@@ -97,7 +99,7 @@ class Dialogue:
         entries = [entry_of(wish, kept, self._instruction, self._offered) for wish, kept in reply.wishes()]
         faults = [fault for entry in entries for fault in wish_faults(entry, self._instruction, self._offered)]
         if not faults:
-            faults = reply_faults(reply, entries, self._instruction)
+            faults = [*check_pronouns(entries, self._instruction), *reply_faults(reply, entries, self._instruction)]
         if faults:
             return Judged(reply, faults=tuple(dict.fromkeys(faults)))
         try:

@@ -10,6 +10,7 @@ from planners.scripted.resolve import FLAG
 from wire.catalogue import type_row
 
 STATED = frozenset({"on", "off", "open", "closed", "clean", "in", "at"})
+STATED_BY = frozenset(kind for kind in ASKED_BY if kind.startswith("IS"))
 ORDERING = frozenset({"THEN", "BEFORE", "AFTER"})
 
 
@@ -45,6 +46,10 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
         inside = instruction.within(span)
         if _commands(inside):
             yield f"talk '{one_line(words, 60)}' may ask for something: put what no name fits into unknown"
+        if any(told.word.kind in ("BEFORE", "AFTER") for told in inside):
+            yield f"talk '{one_line(words, 60)}' tells when: make a goal with a step of it, or put its words into unknown"
+        if any(negates(told) for told in inside) and any(told.word.kind in ("IT", "THEM") for told in inside):
+            yield f"talk '{one_line(words, 60)}' denies something: say it in keep, or put its words into unknown"
         for told in inside:
             if any(told.at <= entry.span for entry in entries):
                 continue
@@ -78,8 +83,8 @@ def _uncovered(told: Told, covering: Sequence[Entry], every: bool) -> Iterator[s
     elif is_act(told):
         if not any(_done(told, entry, covering) for entry in covering):
             yield f"'{told.text}' is in no goal that does it"
-    elif kind in ASKED_BY and kind.startswith("IS") and not covering:
-        yield f"'{told.text}' is in no goal"
+    elif kind in STATED_BY and not any(_stated(told, entry) for entry in covering):
+        yield f"'{told.text}' is in no goal that makes it so"
     if (told.nameless or (kind in ASKED_BY and not is_act(told) and kind != "VIEW")) and not covering:
         yield f"'{told.text}' is in no goal: quote it in of, or in talk or unknown"
     if denies(told) or kind == "LEAVE":
@@ -107,6 +112,13 @@ def _done(told: Told, entry: Entry, covering: Sequence[Entry]) -> bool:
     return told.word.kind == "OPEN" and closed and any(other.wish.p in ("in", "at") for other in covering)
 
 
+def _stated(told: Told, entry: Entry) -> bool:
+    """A state that a goal makes true or, denied, its opposite; "the closed box" only tells which one is meant."""
+    asked = ASKED_BY[told.word.kind]
+    after = [other for other in entry.told if min(other.at) == max(told.at) + 1]
+    return bool(asked & {entry.wish.p, OPPOSITE.get(entry.wish.p, "")}) or any(o.word.kind == "NOUN" for o in after)
+
+
 def _denial(told: Told, covering: Sequence[Entry]) -> Iterator[str]:
     if any(_heeds(told, entry) for entry in covering):
         return
@@ -129,7 +141,11 @@ def _heeds(told: Told, entry: Entry) -> bool:
 def _order(goals: Sequence[Entry], instruction: Instruction, talk: frozenset[int]) -> Iterator[str]:
     """Steps as "then", "before" and "after" have them."""
     for told in instruction.told:
-        if told.word.kind not in ORDERING or told.at <= talk or len(goals) < 2:
+        if told.word.kind not in ORDERING or told.at <= talk:
+            continue
+        if len(goals) < 2:
+            if told.word.kind != "THEN":
+                yield f"'{told.text}' ties two goals together: there are not two, put what no name fits into unknown"
             continue
         steps = {entry.wish.step for entry in goals}
         if len(steps) < 2:

@@ -227,9 +227,8 @@ def _noun_amount(told: Told, wish: Wish, before: Sequence[Told]) -> Iterator[str
         if wish.n != number:
             yield f"'{told.text}' are {number}: n must be {number}"
         return
-    if number == 1 or any(t.word.kind in ("ONES", "OF") for t in quantifiers):
-        return
-    every = told.word.meaning.plural or any(t.word.kind in ("ALL", "NO") for t in quantifiers)
+    one = number == 1 or any(t.word.kind == "ONES" for t in quantifiers)
+    every = any(t.word.kind in ("ALL", "NO") for t in quantifiers) or (told.word.meaning.plural and not one)
     if every and not wish.all:
         yield f"'{told.text}' means every one: all must be true"
     if not every and (wish.all or (wish.n or 1) > 1):

@@ -52,6 +52,8 @@ KILL = "kill the telly, then douse the floor lamp"
 ALONE = "stash the mug in the sink without touching the vase"
 GOLDFISH = "kill the telly and feed the goldfish"
 BUT_ONE = "kill all lamps except the floor lamp"
+STASH_IT = "stash it in the box"
+EMPTIED = f"{STASH} after you emptied it"
 MUG_IN_SINK = f"{STASH} | in | Mug | b=Sink"
 TELLY_OFF = "kill the telly | off | Television"
 
@@ -123,6 +125,31 @@ def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -
             reply(f"{TELLY_OFF} | step=1", "boot the telly | on | Television | step=2"),
             "cannot be both",
         ),
+        (
+            "stash one of the mugs in the sink",
+            reply("stash one of the mugs in the sink | in | Mug | b=Sink | all=true"),
+            "'mugs' is one",
+        ),
+        ("stash the mug in the sink, don't spill it", reply(MUG_IN_SINK, talk=["don't spill it"]), "denies something"),
+        (
+            EMPTIED,
+            reply(MUG_IN_SINK, talk=["after you emptied it"]),
+            "tells when",
+        ),
+        (
+            "stash the laptop in the box, closed",
+            reply("stash the laptop in the box, closed | in | Laptop | b=Box"),
+            "'closed' is in no goal",
+        ),
+        (
+            f"polish the mug, {STASH_IT}, polish the plate",
+            reply(
+                "polish the mug | clean | Mug", f"{STASH_IT} | in | Plate | b=Box", "polish the plate | clean | Plate"
+            ),
+            "not for Plate",
+        ),
+        (f"{STASH}, feed the goldfish", reply(MUG_IN_SINK, talk=["feed the goldfish"]), "may ask for something"),
+        (EMPTIED, reply(MUG_IN_SINK, talk=["you emptied it"]), "are not two"),
         ("switch off the TV, sweetie", reply("switch off the TV | on | Television", talk=["sweetie"]), "asks for off"),
     ],
 )

@@ -81,6 +81,7 @@ def test_after_two_repairs_there_is_an_end_and_the_grammars_word_counts() -> Non
     assert reply.refusal is not None
     assert reply.refusal.reason == "I do not understand 'stash'"
     assert reply.note.startswith("scripted instead of goals: no goals could be made of it")
+    assert [call.outcome for call in reply.calls] == ["invalid"] * 3
     assert [question.temperature for question in model.asked] == [0.0, 0.0, 0.3]
     assert [question.seed for question in model.asked] == [0, 1, 2]
 

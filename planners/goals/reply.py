@@ -1,11 +1,15 @@
 """What a model replied, as plain values: checked for its shape, not yet for its sense."""
 
 import json
+import re
+from collections.abc import Iterator
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from planners.goals.offered import MOST_GOALS
 from planners.prompt import one_line
+
+_LIST_END = re.compile(r"\}\s*\]")
 
 
 class Wish(BaseModel):
@@ -47,10 +51,13 @@ class Misshapen(Exception):
 
 
 def read_reply(text: str) -> Reply:
-    """The JSON object of a reply, with or without prose around it. Raises Misshapen."""
-    found = _object(text)
+    """The JSON object of a reply, with or without prose around it; of one that broke off what is whole. Raises Misshapen.
+
+    Whether that is all of it the critics see: they hold it against the instruction.
+    """
+    found = _object(text) or _whole_parts(text)
     if found is None:
-        raise Misshapen("there is no whole JSON object with a list of goals in it")
+        raise Misshapen("there is no JSON object with a list of goals in it")
     try:
         return Reply.model_validate(found)
     except ValidationError as error:
@@ -59,15 +66,29 @@ def read_reply(text: str) -> Reply:
         raise Misshapen(f"{one_line(where, 60)}: {one_line(first['msg'], 80)}") from None
 
 
-def _object(text: str) -> object:
+def _object(text: str) -> dict[str, object] | None:
+    """The first whole object that has goals."""
+    return next((value for value in _objects(text) if "goals" in value), None)
+
+
+def _whole_parts(text: str) -> dict[str, object] | None:
+    """Of a reply that broke off after its list of goals: these, and the whole restraints."""
+    goals, _, rest = text.partition('"goals"')[2].partition('"keep"')
+    found = [value for value in _objects(goals) if "of" in value]
+    if not found or _LIST_END.search(goals) is None:
+        return None
+    return {"goals": found, "keep": [value for value in _objects(rest) if "of" in value]}
+
+
+def _objects(text: str) -> Iterator[dict[str, object]]:
+    """Every whole JSON object, from the left; none within another."""
     decoder = json.JSONDecoder()
     at = text.find("{")
     while at >= 0:
         try:
-            value, _ = decoder.raw_decode(text, at)
+            value, end = decoder.raw_decode(text, at)
         except (ValueError, RecursionError):
-            value = None
-        if isinstance(value, dict) and "goals" in value:
-            return value
-        at = text.find("{", at + 1)
-    return None
+            end = at + 1
+        else:
+            yield value
+        at = text.find("{", end)

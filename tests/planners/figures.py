@@ -32,8 +32,9 @@ KINDS = (
     "broken_json",
     "prose",
 )
-MIXED = 1.0 - 0.7 ** (1.0 / len(KINDS))
-"""The rate of each kind at which three replies in ten have at least one error."""
+MIXED = 0.085
+"""The rate of each kind at which three replies in ten come out otherwise than without errors: not every reply has a
+restraint to drop, or an order."""
 
 
 @dataclass
@@ -46,6 +47,8 @@ class Tally:
     done: int = 0
     """Exact, and carried out in the toy house until the goals held in truth."""
     calls: int = 0
+    spoilt: int = 0
+    """Replies that would have been others without the errors."""
 
     def __add__(self, other: "Tally") -> "Tally":
         return Tally(*(mine + theirs for mine, theirs in zip(astuple(self), astuple(other), strict=True)))
@@ -83,8 +86,13 @@ def tally(dials: Dials, by: str, execute: bool = True) -> Tally:
         got = outcome(row, model)
         exact = got == row.want or (row.refused and got in ("!", "?"))
         done = exact and execute and carried_out(row, EmulatedModel(dials))
-        total += Tally(1, exact, not exact and got not in ("!", "?"), done, len(model.said))
+        total += Tally(1, exact, not exact and got not in ("!", "?"), done, len(model.said), spoilt(model))
     return total
+
+
+def spoilt(model: EmulatedModel) -> int:
+    clean = EmulatedModel()
+    return sum(clean.ask(question).text != text for question, text in model.said)
 
 
 def prompt_tokens() -> list[int]:

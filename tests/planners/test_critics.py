@@ -185,6 +185,21 @@ def test_prose_around_the_object_does_no_harm() -> None:
     assert read_reply(text) == Reply(goals=(), talk=("hello",))
 
 
+@pytest.mark.parametrize("cut", range(60, 190, 9))
+def test_of_a_reply_that_broke_off_what_is_whole_counts_if_it_is_all(cut: int) -> None:
+    say = "kill the telly and latch the box"
+    text = json.dumps(reply(TELLY_OFF, "latch the box | closed | Box"))
+    whole = text.index("}]") + 2 <= cut
+    dialogue = Dialogue(WrittenModel(["{}"]), offered(say), Instruction(say, WORLD), WORLD)
+    try:
+        judged = dialogue.judge(read_reply(text[:cut]))
+    except Misshapen:
+        assert not whole
+    else:
+        assert whole
+        assert written(judged.goals) == "off(Television) ; closed(Box)"
+
+
 SAY = "kill the telly"
 NAMES = (*offered(SAY).types, *offered(SAY).rooms, EVERYTHING)
 any_wish = st.fixed_dictionaries(

@@ -1,6 +1,8 @@
 """The planner `goals`: who is asked what, how often, and that plans come from code."""
 
+import ast
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -196,9 +198,9 @@ def test_tasks_end_with_the_goals_true(say: str) -> None:
 def test_errors_of_the_model_are_made_good() -> None:
     """Three replies in ten with errors of all kinds: the goals are as without, within two points of all tasks."""
     clean = tally(Dials(), "model", execute=False)
+    assert (clean.exact, clean.spoilt) == (clean.tasks, 0)
     spoilt = tally(Dials(seed=5, **dict.fromkeys(KINDS, MIXED)), "model", execute=False)
-    assert clean.exact == clean.tasks
-    assert spoilt.calls > 1.2 * clean.calls, "there were errors"
+    assert spoilt.spoilt >= 0.28 * spoilt.calls
     assert spoilt.exact >= clean.exact - 0.02 * len(rows())
 
 
@@ -228,3 +230,11 @@ def test_over_real_http_with_the_real_client() -> None:
     model = EmulatedModel()
     ask(model)
     assert tokens(model.said[0][0]) <= call.prompt_tokens
+
+
+@pytest.mark.parametrize("name", ["brains/goals.py", "deeds.py", "english.py"])
+def test_the_emulated_planner_knows_the_prompt_alone(name: str) -> None:
+    tree = ast.parse((Path(__file__).parents[1] / "ollama_double" / name).read_text())
+    imported = [node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    imported += [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+    assert not [module for module in imported if module.split(".")[0] in ("planners", "wire", "hub")]

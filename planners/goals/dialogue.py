@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planners.asking import Answer, Model, ModelFailed, Question, rejected
+from planners.goals.mending import mended
 from planners.goals.merging import merged
 from planners.goals.offered import Offered, schema, user_text
 from planners.goals.pronouns import check_pronouns
@@ -73,7 +74,7 @@ class Dialogue:
 
     def _hear(self, answer: Answer) -> Judged:
         try:
-            judged = self.judge(read_reply(answer.text))
+            judged = self.judge(mended(read_reply(answer.text), self._instruction))
         except Misshapen as fault:
             judged = Judged(None, faults=(str(fault),))
         except Unclear:

@@ -63,9 +63,11 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
 
 
 def _commands(inside: Sequence[Told]) -> bool:
-    """A strange word with an object at the beginning: "feed the goldfish"."""
-    first = inside[:2]
-    return len(inside) > 2 and first[0].nameless and first[1].word.kind == "THE"
+    """A strange word at the beginning and something that it may be done to: "feed the goldfish", "smash mugs"."""
+    if len(inside) < 2 or not inside[0].nameless:
+        return False
+    named = any(told.word.kind in (*NAMING, "EVERYTHING") for told in inside[1:])
+    return named or inside[-1].word.kind in ("IT", "THEM") or (len(inside) > 2 and inside[1].word.kind == "THE")
 
 
 def _uncovered(told: Told, covering: Sequence[Entry], every: bool) -> Iterator[str]:

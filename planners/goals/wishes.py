@@ -124,7 +124,7 @@ def _unasked(entry: Entry) -> Iterator[str]:
     """A predicate for which nothing in its words speaks."""
     denied = any(denies(told) for told in entry.told)
     speaks = {predicate for told in entry.told if told.word.kind != "TURN" for predicate in told.asks}
-    speaks |= _turned(entry.told)
+    speaks |= turned(entry.told)
     if any(negates(told) for told in entry.told):
         speaks |= {OPPOSITE[predicate] for predicate in speaks if predicate in OPPOSITE}
     acts = any(is_act(told) for told in entry.told)
@@ -142,7 +142,7 @@ def _unasked(entry: Entry) -> Iterator[str]:
         yield f"'{_cut(entry.wish.of)}' does not ask for {entry.wish.p}: change p, or leave the goal out"
 
 
-def _turned(told: Sequence[Told]) -> set[str]:
+def turned(told: Sequence[Told]) -> set[str]:
     """ "Turn off", "turn the TV off": the particle says which; without one it may be either."""
     if all(word.word.kind != "TURN" for word in told):
         return set()

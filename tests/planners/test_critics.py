@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planners.goals.dialogue import Dialogue
+from planners.goals.mending import mended
 from planners.goals.offered import EVERYTHING, Offered, offer
 from planners.goals.reply import Misshapen, Reply, read_reply
 from planners.goals.words import Instruction
@@ -148,6 +149,8 @@ def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -
             ),
             "not for Plate",
         ),
+        (f"{STASH}, smash it", reply(MUG_IN_SINK, talk=["smash it"]), "may ask for something"),
+        (f"{STASH}, smash mug", reply(MUG_IN_SINK, talk=["smash mug"]), "may ask for something"),
         (f"{STASH}, feed the goldfish", reply(MUG_IN_SINK, talk=["feed the goldfish"]), "may ask for something"),
         (EMPTIED, reply(MUG_IN_SINK, talk=["you emptied it"]), "are not two"),
         ("switch off the TV, sweetie", reply("switch off the TV | on | Television", talk=["sweetie"]), "asks for off"),
@@ -198,6 +201,25 @@ def test_of_a_reply_that_broke_off_what_is_whole_counts_if_it_is_all(cut: int) -
     else:
         assert whole
         assert written(judged.goals) == "off(Television) ; closed(Box)"
+
+
+@pytest.mark.parametrize(
+    ("say", "line", "p"),
+    [
+        ("kill the telly", "kill the telly | on | Television", "off"),
+        ("close the macbook", "close the macbook | found | Laptop", "closed"),
+        ("turn off the tube", "turn off the tube | on | Television", "off"),
+        (STASH, f"{STASH} | found | Mug | b=Sink", "in"),
+        (STASH, f"{STASH} | open | Sink", "open"),
+        ("stash the mug on the sofa", "stash the mug on the sofa | open | Sofa", "open"),
+        ("never kill the telly", "never kill the telly | on | Television", "on"),
+        ("flip the laptop", "flip the laptop | clean | Laptop", "clean"),
+        (BUT_ONE, f"{BUT_ONE} | on | DeskLamp | all=true", "on"),
+    ],
+)
+def test_a_predicate_is_put_right_where_the_words_allow_one_only(say: str, line: str, p: str) -> None:
+    given = read_reply(json.dumps(reply(line)))
+    assert [wish.p for wish in mended(given, Instruction(say, WORLD)).goals] == [p]
 
 
 SAY = "kill the telly"

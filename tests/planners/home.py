@@ -5,7 +5,7 @@ from wire.messages.world import WorldState
 
 FURNITURE = (
     *(("Fridge", "kitchen"), ("CounterTop", "kitchen"), ("DiningTable", "kitchen"), ("Sink", "kitchen")),
-    *(("Microwave", "kitchen"), ("Sofa", "living-room"), ("CoffeeTable", "living-room"), ("TVStand", "living-room")),
+    *(("Microwave", "kitchen"), ("Sofa", "living-room"), ("CoffeeTable", "living-room"), ("Dresser", "bathroom")),
     *(("ShelvingUnit", "living-room"), ("Desk", "bedroom-1"), ("Bed", "bedroom-1"), ("Bed", "bedroom-2")),
     *(("GarbageCan", "kitchen"), ("Box", "bedroom-2")),
 )

@@ -9,6 +9,7 @@ from planners.goals.reply import Wish
 from planners.goals.words import ALSO, ASKED_BY, OPPOSITE, Instruction, Told, cues, denies, negates
 from planners.prompt import one_line
 from planners.scripted.resolve import FLAG, named
+from planners.scripted.transports import enclosed
 from wire.catalogue import type_row
 from wire.names import called
 
@@ -116,8 +117,26 @@ def _affordance(entry: Entry, offered: Offered) -> Iterator[str]:
     kind = offered.type_of(entry.wish.a)
     if flag is not None and kind is not None and not type_row(kind).can(flag[0]):
         yield f"{named(kind)} cannot be {flag[1]}: '{entry.wish.of}'"
+    holder = offered.type_of(entry.wish.b or "") or ""
+    if any(on.text.startswith("on") and _names(noun, holder) for on, noun in _prepositions(entry.told)) and enclosed(
+        holder
+    ):
+        yield f"things go into {named(holder)}, not on top of it: put the words into unknown"
     if entry.wish.p not in PLACED and entry.wish.b is not None:
         yield f"b is only for in and at, not for {entry.wish.p}"
+
+
+def _names(noun: Told, type_name: str) -> bool:
+    return noun.word.kind in ("NOUN", "ID") and type_name in noun.word.meaning.types
+
+
+def _prepositions(told: Sequence[Told]) -> Iterator[tuple[Told, Told]]:
+    """Each "in", "on" or "into" with the word that follows it, articles left out."""
+    yield from (
+        (before, after)
+        for before, after in pairwise(word for word in told if word.word.kind not in ("THE", "ADJ"))
+        if before.word.kind in ("IN", "ON", "INTO")
+    )
 
 
 def _unasked(entry: Entry) -> Iterator[str]:

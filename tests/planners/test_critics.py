@@ -109,6 +109,7 @@ def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -
             reply("stash the sofa in the box | in | Sofa | b=Box"),
             "a sofa cannot be carried",
         ),
+        ("stash the mug on the fridge", reply("stash the mug on the fridge | in | Mug | b=Fridge"), "not on top of it"),
         (ALONE, reply(MUG_IN_SINK), "'touching' is in no goal that does it"),
         ("kill the telly but not the floor lamp", reply(TELLY_OFF), "'floor lamp' is in no goal"),
         ("hands off the vase, kill the telly", reply(TELLY_OFF, talk=["hands off the vase"]), "names a thing"),

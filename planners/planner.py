@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Protocol
 
+from planners.goals.planner import GoalsPlanner
+from planners.modelled import modelled
 from planners.scripted.planner import ScriptedPlanner
 from wire.messages.plan import PlanReply, PlanRequest
 from wire.site import Site
@@ -15,5 +17,8 @@ class Planner(Protocol):
         """Exactly one of plan and refusal, for this request's task and epoch."""
 
 
-PLANNERS: dict[str, Callable[[Site], Planner]] = {"scripted": ScriptedPlanner}
+PLANNERS: dict[str, Callable[[Site], Planner]] = {
+    "scripted": ScriptedPlanner,
+    "goals": modelled(GoalsPlanner),
+}
 """Name -> factory. A new planner is one file and one row here."""

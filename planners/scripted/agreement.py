@@ -34,16 +34,18 @@ def _check_pair(goal: Goal, other: Goal) -> None:
     if goal.forbidden != other.forbidden:
         wish, bar = (other, goal) if goal.forbidden else (goal, other)
         if _overlap(wish.subject, bar.subject) and _barred(wish, bar):
-            raise Unclear(f"'{wish.text}' and '{bar.text}' contradict each other", bar.text)
+            raise Unclear(f"'{wish.text}' and '{bar.text}' contradict each other", bar.text, final=True)
     elif not goal.forbidden and _same(goal.subject, other.subject):
         what = called(goal.subject.type or "thing")
         if (goal.predicate, other.predicate) in OPPOSED:
             reason = f"the {what} cannot be both {goal.predicate} and {other.predicate} at the end"
-            raise Unclear(f"{reason}, which is all that a task is about: say which it should be", other.text)
+            raise Unclear(
+                f"{reason}, which is all that a task is about: say which it should be", other.text, final=True
+            )
         moved = goal.predicate in ("in", "at") and other.predicate in ("in", "at")
         pinned = goal.subject.id is not None or goal.subject.count is None
         if moved and pinned and _apart(goal, other):
-            raise Unclear(f"the {what} cannot end in two places", other.text)
+            raise Unclear(f"the {what} cannot end in two places", other.text, final=True)
 
 
 def _apart(goal: Goal, other: Goal) -> bool:

@@ -141,7 +141,7 @@ class _Reader:
             return self._find(act)
         if act.verb == "check":
             reason = "questions are not answered: say 'make sure that ...', or ask './justw why' about the thing"
-            raise Unclear(reason, act.text)
+            raise Unclear(reason, act.text, final=True)
         if act.verb in ("go", "survey"):
             return self._go(act)
         if act.verb in ("above", "chart"):

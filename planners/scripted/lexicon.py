@@ -10,7 +10,7 @@ from wire.catalogue import catalogue, modelled_types
 from wire.messages.world import WorldState
 from wire.names import classes, collectives, names_of, plural, room_names
 
-LONGEST_PHRASE = 6
+LONGEST_PHRASE = 8
 _WORD = re.compile(r"(?P<word>[^\W_]+(?:['_-][^\W_]+)*)|(?P<mark>[^\s\"“”()])")
 _ID = re.compile(r"[a-z][a-z0-9-]*-\d+")
 

@@ -9,21 +9,10 @@ from lark import Lark, Token, UnexpectedInput
 from lark.lexer import Lexer
 
 from planners.scripted.lexicon import Lexicon, Word
+from planners.scripted.strangers import refuse_strangers
 from planners.scripted.syntax import Item, Unclear
 from planners.scripted.tokens import tokens
 from planners.scripted.tree import Builder
-
-NAMING = {"IN", "ON", "INTO", "TO", "FROM", "THE", "ALL"}
-"""Words that belong to the name that follows them when it is not understood."""
-
-STRANGE = {
-    "LIMIT": "I cannot do '{part}': {base}",
-    "NOROOM": "there is no {base} in this building",
-    "NOID": "nothing here is called {base}",
-    "ROBOT": "robots are chosen by the planner: leave out '{base}'",
-    "UNSEEN": "no camera here can recognise a {base}",
-}
-"""What to say of words that are known and of no use here."""
 
 
 class _TypedWords(Lexer):
@@ -46,41 +35,16 @@ def grammar() -> Lark:
 def parse(instruction: str, lexicon: Lexicon) -> tuple[Item, ...]:
     """The clauses of an instruction. Raises Unclear unless every word has been placed."""
     words = lexicon.words(instruction)
-    _refuse_strangers(words)
+    refuse_strangers(words, instruction)
     typed = tokens(words)
     if not typed:
-        raise Unclear("there is nothing to do in it", instruction.strip())
+        raise Unclear("there is nothing to do in it", instruction.strip(), final=True)
     try:
         tree = grammar().parse(typed)
     except UnexpectedInput as error:
         raise _misplaced(error, typed, instruction) from None
     items: tuple[Item, ...] = Builder(instruction).transform(tree)
     return items
-
-
-def _refuse_strangers(words: Sequence[Word]) -> None:
-    parts = [(word, _part(words, index)) for index, word in enumerate(words)]
-    asked = next(((word, part) for word, part in parts if word.kind == "CONTROL"), None)
-    if asked is not None:
-        raise Unclear(asked[0].meaning.base, asked[1])
-    unknown = [part for word, part in parts if word.kind == "UNKNOWN"]
-    if unknown:
-        listed = " and ".join(f"'{part}'" for part in unknown[:4])
-        raise Unclear(f"I do not understand {listed}", unknown[0])
-    for word, part in parts:
-        if word.kind == "MAYBE":
-            raise Unclear(f"I do not know '{word.text}': do you mean {word.meaning.base}?", part, question=True)
-        reason = STRANGE.get(word.kind)
-        if reason is not None:
-            raise Unclear(reason.format(part=part, base=word.meaning.base), part)
-
-
-def _part(words: Sequence[Word], index: int) -> str:
-    """A word with the small words before it: "to the moon"."""
-    start = index
-    while start > 0 and words[start - 1].kind in NAMING:
-        start -= 1
-    return " ".join(w.text for w in words[start : index + 1])
 
 
 def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) -> Unclear:
@@ -97,12 +61,13 @@ def _misplaced(error: UnexpectedInput, typed: Sequence[Word], instruction: str) 
     part = instruction[word.start : max(end, word.end)].strip()
     if word.kind == "NUM" and before is not None and before.kind == "NOUN":
         name = f"{before.text} {word.text}"
-        return Unclear(f"nothing here is called '{name}': say the room that the {before.text} is in, or its id", name)
+        return Unclear(
+            f"nothing here is called '{name}': say the room that the {before.text} is in, or its id", name, final=True
+        )
     if word.kind == "IS":
         start = next((w.end for w in reversed(typed) if w.end <= word.start and w.kind.startswith("SEP")), 0)
-        return Unclear(
-            f"'{instruction[start : word.end].strip()} ...' only says how things are: say 'make sure that ...'", part
-        )
+        said = instruction[start : word.end].strip()
+        return Unclear(f"'{said} ...' only says how things are: say 'make sure that ...'", part, final=True)
     if word.kind == "OR":
         return Unclear("say which of them is meant: 'or' leaves it open", part, question=True)
     return Unclear(f"I do not understand '{part}' at this place", part)

@@ -159,7 +159,7 @@ class Resolver:
     def check(self, type_name: str, predicate: str, part: str) -> None:
         """Refuse what cannot be done with things of a type."""
         if not self._affords(type_name, predicate):
-            raise Unclear(f"{named(type_name)} cannot be {FLAG[predicate][1]}", part)
+            raise Unclear(f"{named(type_name)} cannot be {FLAG[predicate][1]}", part, final=True)
 
     # Places
 

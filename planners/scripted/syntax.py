@@ -11,11 +11,12 @@ OPPOSITE: dict[State, Predicate] = {"on": "off", "off": "on", "open": "closed", 
 
 
 class Unclear(Exception):
-    """The instruction cannot be done as it stands; `question` when an answer would settle it."""
+    """The instruction cannot be done as it stands; `question` when an answer would settle it, `final` when no other
+    reading of the same words would."""
 
-    def __init__(self, reason: str, part: str = "", *, question: bool = False) -> None:
+    def __init__(self, reason: str, part: str = "", *, question: bool = False, final: bool = False) -> None:
         super().__init__(reason)
-        self.reason, self.part, self.question = reason, part, question
+        self.reason, self.part, self.question, self.final = reason, part, question, final
 
 
 @dataclass(frozen=True)

@@ -67,6 +67,7 @@ def _ask_for_each(waiting: Sequence[Group], groups: Groups) -> Unclear:
 
 
 MOST_NAMED = 5
+ONTO = ("on ", "onto ", "upon ")
 DISCARDING = ("throw", "discard", "dispose", "get rid")
 
 
@@ -177,7 +178,14 @@ def destination(place: Place, of_place: Sequence[Place], resolver: Resolver) -> 
     found = resolver.subjects(Group(thing.text, replace(thing, plural=False)), "holder")
     if len(found) != 1:
         raise Unclear(f"which one is meant by '{thing.text}'?", thing.text, question=True)
+    if place.text.lower().startswith(ONTO) and enclosed(found[0].type or ""):
+        raise Unclear(f"things go into {named(found[0].type or '')}, not on top of it", place.text, final=True)
     return resolver.narrow(found[0].model_copy(update={"count": 1}), of_place)
+
+
+def enclosed(type_name: str) -> bool:
+    """Whether nothing is put on top of such a thing, only into it."""
+    return type_row(type_name).receptacle_mode == "enclosed"
 
 
 def placed(body: Body, resolver: Resolver) -> Move:

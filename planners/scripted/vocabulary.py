@@ -35,6 +35,8 @@ def fixed_phrases() -> dict[Phrase, tuple[str, str]]:
         table.update({tuple(w.split()): ("LIMIT", reason) for w in words})
     for reason, words in tables()["control"].items():
         table.update({tuple(w.split()): ("CONTROL", reason) for w in words})
+    for word in tables()["reported"]["words"]:
+        table[tuple(word.split())] = ("REPORTED", word)
     for word in tables()["no_room"]["words"]:
         table[tuple(word.split())] = ("NOROOM", word)
     for kind, verbs in tables()["verb"].items():

@@ -5,16 +5,20 @@ from hashlib import sha256
 from random import Random
 from typing import Literal
 
-Slip = Literal["invented_id", "missing_dependency", "wrong_skill", "dropped_negation", "broken_json", "prose"]
+Slip = Literal[
+    "invented_id", "missing_goal", "missing_dependency", "wrong_skill", "dropped_negation", "broken_json", "prose"
+]
 
 
 @dataclass(frozen=True)
 class Dials:
-    """Rates from 0 to 1. The first four are for brains to ask about with `slips`; `spoil` sees to the last two."""
+    """Rates from 0 to 1. All but the last two are for brains to ask about with `slips`; `spoil` sees to the last two."""
 
     seed: int = 0
     invented_id: float = 0.0
     """It names a thing that is not there."""
+    missing_goal: float = 0.0
+    """It leaves out one thing of those that were asked for."""
     missing_dependency: float = 0.0
     """It leaves out that one step waits for another."""
     wrong_skill: float = 0.0

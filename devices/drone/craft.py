@@ -150,8 +150,12 @@ class Craft:
 
     @property
     def flown_by_others(self) -> bool:
-        """In a mode in which nothing is asked of it from here, and not because it was told to land."""
-        return self._landing is None and self.telemetry is not None and self.telemetry.mode in OTHERS
+        """In a mode in which nothing is asked of it from here, and not because it was told to land; on the ground only
+        who flies by hand has it."""
+        said = self.telemetry
+        if self._landing is not None or said is None:
+            return False
+        return said.mode in (OTHERS if self.airborne else BY_HAND)
 
     @property
     def mode(self) -> str:

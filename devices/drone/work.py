@@ -4,7 +4,7 @@ from math import dist
 
 from devices.drone.course import CRUISE_MPS
 from devices.drone.craft import Craft
-from devices.drone.flight import Trouble, fly_to
+from devices.drone.flight import Trouble, fly_to, go_to
 from devices.drone.moves import Skilled, go_home, land_here
 from devices.drone.places import room_of
 from devices.drone.route import nearest_open
@@ -17,6 +17,7 @@ RADIUS_M = 0.3
 LOW_BATTERY = 0.12
 """An idle drone lands with less; one at work is brought down by its autopilot's own failsafe."""
 ASIDE_AGAIN_M, ASIDE_SLACK_M = 0.3, 1.0
+GET_UP_S = 2.0
 THROUGH = object()
 
 
@@ -33,6 +34,8 @@ class DroneWorker:
         self._gave_up = ""
         self._aside: Trouble | None = None
         self._aside_m: Vec2 | None = None
+        self._asked_s: float | None = None
+        """Since when it is in somebody's way where it stands."""
         self._idle_s: float | None = None
         self._homeward: Skilled | None = None
         self._no_way_home = False
@@ -90,7 +93,7 @@ class DroneWorker:
         if self._gave_up or (battery is not None and battery < LOW_BATTERY):
             craft.land()
             self._gave_up = self._gave_up if craft.airborne else ""
-        elif not self._step_aside() and not self._go_home():
+        elif not self._step_aside(idle=True) and not self._go_home():
             craft.hover()
 
     def halt(self) -> None:
@@ -171,11 +174,14 @@ class DroneWorker:
         self._homeward = self._idle_s = None
         self._no_way_home = False
 
-    def _step_aside(self) -> bool:
-        """Whether this step went into clearing the way for somebody; on the ground nobody can be made way for."""
+    def _step_aside(self, idle: bool = False) -> bool:
+        """Whether this step went into clearing the way for somebody. With nothing to do it gets up from the ground for
+        whoever waits; once up, it is mostly out of the way already."""
         craft = self._craft
         wanted = craft.order.step_aside_m if craft.order is not None else None
-        if wanted is None or not craft.airborne or craft.landing:
+        if not self._is_waited_for(wanted, idle):
+            wanted = None
+        if wanted is None or craft.landing:
             if self._aside_m is not None:
                 self._aside = self._aside_m = None
                 craft.hover()
@@ -184,8 +190,18 @@ class DroneWorker:
             height_m = max(craft.position_m[2], min(craft.row.flight_height_m, craft.space.top_m(craft.position_m)))
             goal_m = nearest_open(craft.space, (*wanted, height_m), ASIDE_SLACK_M)
             craft.hover()
-            self._aside_m, self._aside = wanted, fly_to(craft, goal_m) if goal_m is not None else None
+            go = fly_to if craft.airborne else go_to
+            self._aside_m, self._aside = wanted, go(craft, goal_m) if goal_m is not None else None
         if self._aside is not None and next(self._aside, THROUGH) is THROUGH:
             self._aside = None
             craft.hover()
         return True
+
+    def _is_waited_for(self, wanted_m: Vec2 | None, idle: bool) -> bool:
+        """Whether making way is worth it: from the ground, only for one that does not just pass by."""
+        craft = self._craft
+        if wanted_m is None or craft.airborne or not idle:
+            self._asked_s = None
+            return craft.airborne
+        self._asked_s = craft.now_s if self._asked_s is None else self._asked_s
+        return self._aside_m is not None or craft.now_s - self._asked_s >= GET_UP_S

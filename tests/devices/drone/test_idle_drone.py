@@ -72,6 +72,35 @@ def test_the_hubs_absence_and_orders_come_before_going_home() -> None:
     assert not flown.craft.airborne
 
 
+def test_on_the_ground_it_gets_up_for_who_waits_and_comes_down_again() -> None:
+    """As when it has landed before the television that a walker must get at."""
+    flown = away(idle_home_s=5.0)
+    flown.pause(40.0)
+    assert not flown.craft.airborne
+    home_m = flown.craft.position_m[:2]
+    given = {"robot": "drone-1", "seq": 1, "stamp_s": flown.now_s, "go": True, "step_aside_m": (3.0, 3.0)}
+    flown.craft.order = TrafficOrder.model_validate(given)
+    flown.pause(1.0)
+    assert not flown.craft.airborne, "somebody who only passes by is let pass"
+    flown.pause(20.0)
+    assert flown.craft.airborne
+    assert dist(flown.craft.position_m[:2], (3.0, 3.0)) < 0.5
+    flown.craft.order = None
+    flown.pause(60.0)
+    assert not flown.craft.airborne
+    assert dist(flown.craft.position_m[:2], home_m) < 0.5
+
+
+def test_it_does_not_get_up_with_an_empty_battery() -> None:
+    flown = away(idle_home_s=5.0)
+    flown.pause(40.0)
+    flown.pilot.says = replace(flown.pilot.says, battery=0.15)
+    given = {"robot": "drone-1", "seq": 1, "stamp_s": flown.now_s, "go": True, "step_aside_m": (3.0, 3.0)}
+    flown.craft.order = TrafficOrder.model_validate(given)
+    flown.pause(20.0)
+    assert not flown.craft.airborne
+
+
 def test_a_person_who_flies_it_is_not_sent_home() -> None:
     flown = away(idle_home_s=5.0)
     flown.pilot.says = replace(flown.pilot.says, mode="POSCTL")

@@ -151,6 +151,9 @@ class _Reader:
         if not do and "do" not in raw:
             self._fault('"do" is missing: it names a skill')
         self._suits(do)
+        robot = self._chosen("robot", offered.robots, "robot")
+        if robot is not None and (why := offered.cannot(robot, do)):
+            self._fault(why)
         return Written(
             id=id,
             do=do,
@@ -160,7 +163,7 @@ class _Reader:
             point_m=self._point(),
             looking_for=self._types(),
             params=self._params(do),
-            robot=self._chosen("robot", offered.robots, "robot"),
+            robot=robot,
             after=names_of(raw.get("after"), self._where, self._faults),
         )
 

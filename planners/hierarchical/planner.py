@@ -83,4 +83,11 @@ def steps_of(text: str, offered: Offered, subtasks: Sequence[Subtask]) -> Mappin
     if faults:
         raise Faulty(faults)
     steps = read_steps(raw, offered, _OF)
+    doers = {subtask.id: subtask.robot for subtask in subtasks}
+    pairs = [
+        (step, robot) for step, id in zip(steps, of, strict=True) if (robot := step.robot or doers[id]) is not None
+    ]
+    faults = [f"step {step.id}: {why}" for step, robot in pairs if (why := offered.cannot(robot, step.do))]
+    if faults:
+        raise Faulty(faults)
     return {id: [step for step, owner in zip(steps, of, strict=True) if owner == id] for id in ids}

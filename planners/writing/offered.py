@@ -54,6 +54,11 @@ class Offered:
     def task(self) -> str:
         return f'task: "{one_line(self.request.instruction, INSTRUCTION_LIMIT)}"'
 
+    def cannot(self, robot: Id, do: Action) -> str:
+        """Why a robot is not to be given a step; empty when it has the skill."""
+        able = [state.id for state in self.request.world.robots if do in state.skills and state.status != "lost"]
+        return f"{robot} cannot {do}; {', '.join(able)} can" if able and robot not in able else ""
+
     def failures(self) -> str:
         """What went wrong in this task, with the hub's ids as their short names; empty where nothing did."""
         told = [self.spoken(sentence) for sentence in self.request.failures]

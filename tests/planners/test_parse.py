@@ -107,6 +107,17 @@ def test_each_fault_is_one_sentence_that_names_it(change: dict[str, Any], words:
     assert all("\n" not in text for text in found)
 
 
+def test_a_robot_is_not_given_what_it_cannot_do() -> None:
+    world = furnished(1, tuple(id for id, _, _ in ROOMS)).world()
+    dog = world.robots[0]
+    robots = (dog.model_copy(update={"skills": ("goto",)}), dog.model_copy(update={"id": "dog-2"}))
+    world = world.model_copy(update={"robots": robots})
+    asked = offer(PlanRequest(task="t", epoch=1, instruction="", world=world, now_s=1.0), Names())
+    with pytest.raises(Faulty, match="step s1: dog-1 cannot pickup; dog-2"):
+        read_steps([GOOD], asked)
+    assert read_steps([{**GOOD, "robot": "dog-2"}], asked)[0].robot == "dog-2"
+
+
 def test_two_steps_with_one_id_are_told_apart_by_nobody() -> None:
     assert faults_of(GOOD, GOOD) == ["two steps have the id s1: give each its own"]
 

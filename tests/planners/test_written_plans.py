@@ -157,6 +157,17 @@ def test_a_robot_that_objects_is_heard_in_the_next_round() -> None:
     assert '- dog-1: "my hand is hurt"' in model.asked[3].user
 
 
+def test_motion_functions_are_those_of_the_sub_tasks_robot() -> None:
+    world = furnished(1, EVERYWHERE).world()
+    drone = world.robots[0].model_copy(update={"id": "drone-1", "kind": "drone", "skills": ("take_off",)})
+    subtasks = '{"subtasks": [{"id": "t1", "what": "open fridge1", "robot": "drone-1"}]}'
+    wrong = '{"steps": [{"subtask": "t1", "id": "s1", "do": "open", "object": "fridge1"}]}'
+    model = WrittenModel([subtasks, wrong, '{"steps": [{"subtask": "t1", "id": "s1", "do": "take_off"}]}'])
+    reply = ask(Hierarchical(site(), model), world.model_copy(update={"robots": (*world.robots, drone)}), "open it")
+    assert reply.plan is not None
+    assert "step s1: drone-1 cannot open; dog-1 can" in model.asked[2].user
+
+
 def test_a_coalition_of_those_who_cannot_is_refused() -> None:
     world = furnished(1, EVERYWHERE).world()
     other = world.robots[0].model_copy(update={"id": "dog-2"})

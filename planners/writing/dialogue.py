@@ -58,7 +58,8 @@ class Dialogue:
                 temperature=_WARMER if repair else 0.0,
                 seed=self._seed + repair + 1,
             )
-        raise ModelFailed(f"the {purpose} of the model could not be used: {last}", self.judged[-1])
+        reason = f"the {purpose} of the model could not be used: {last}"
+        raise ModelFailed(reason, self.judged[-1], rejects=self.judged[:-1])
 
 
 def _objection(text: str, faulty: Faulty) -> str:

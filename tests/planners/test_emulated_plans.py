@@ -101,3 +101,9 @@ def test_each_dial_spoils_as_many_replies_as_it_says_and_always_the_same(dial: s
     for spoiled, whole in zip(always, good, strict=True):
         steps = zip(json.loads(spoiled)["steps"], json.loads(whole)["steps"], strict=True)
         assert sum(a != b for a, b in steps) <= 1, "one place in a reply"
+
+
+def test_a_part_of_the_task_is_forgotten() -> None:
+    told = zip(replies(Dials()), replies(Dials(missing_goal=1.0)), strict=True)
+    shorter = sum(len(json.loads(less)["steps"]) < len(json.loads(whole)["steps"]) for whole, less in told)
+    assert shorter > 30

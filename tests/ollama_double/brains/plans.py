@@ -48,8 +48,10 @@ class Planner:
     def _work(self, request: ChatRequest, parts: Sections, known: Known) -> Work:
         """Everything that the task of the prompt asks for, with a robot for each errand."""
         instruction = " ".join(parts.get("task", [""])).strip('"')
-        negations = not self._slips(request).happens("dropped_negation")
-        work = Thinker(known, read_wishes(instruction, known, negations)).work()
+        slips = self._slips(request)
+        wishes = read_wishes(instruction, known, not slips.happens("dropped_negation"))
+        slips.wishes(wishes.wanted)
+        work = Thinker(known, wishes).work()
         share_out(work.errands, known)
         return work
 

@@ -6,6 +6,7 @@ from random import Random
 
 from tests.ollama_double.brain import ChatRequest
 from tests.ollama_double.dials import Dials
+from tests.ollama_double.planning.speech import Wish
 
 _NUMBERED = re.compile(r"\b([a-z]+)(\d+)\b")
 _OTHER = {
@@ -28,6 +29,11 @@ class Slips:
 
     def happens(self, kind: str) -> bool:
         return self.dials.slips(kind, self.request.prompt, self.request.seed)  # type: ignore[arg-type]
+
+    def wishes(self, wanted: list[Wish]) -> None:
+        """Forget a part of the task."""
+        if wanted and self.happens("missing_goal"):
+            wanted.remove(self._chance("missing_goal").choice(wanted))
 
     def steps(self, rows: list[Row]) -> None:
         """Spoil a list of steps in place."""

@@ -72,6 +72,23 @@ def test_nothing_of_it_can_look_behind_the_prompt() -> None:
             )
 
 
+def test_another_thing_is_taken_after_a_failure_and_none_is_tried_for_ever() -> None:
+    world = furnished(1, tuple(id for id, _, _ in ROOMS)).world()
+
+    def taken(*failures: str) -> set[str | None]:
+        request = PlanRequest(
+            task="t", epoch=1, instruction="put the mug in the sink", world=world, failures=failures, now_s=1.0
+        )
+        plan = SingleShot(site(), EmulatedModel()).make_plan(request).plan
+        assert plan is not None
+        return {node.object for node in plan.nodes if node.action == "pickup"}
+
+    (first,) = taken()
+    (second,) = taken(f"dog-1 could not pickup {first}: there is no way to it")
+    assert second != first
+    assert taken(*[f"dog-1 could not pickup {id}: no way" for id in (first, second)] * 3) == set()
+
+
 def question(seed: int) -> Question:
     """A whole prompt of the planner of the first paper."""
     model = EmulatedModel()

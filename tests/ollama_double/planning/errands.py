@@ -20,6 +20,8 @@ _READY: dict[tuple[Verb, str], tuple[Verb, str, bool]] = {
 SAYS: dict[Verb, str] = {"toggle_on": "switch on", "toggle_off": "switch off"}
 BLADES = ("knife", "butterknife")
 _MOST_TYPES = 8
+GIVEN_UP = 3
+"""So many failures with a thing are enough: another one is looked for."""
 
 
 def type_of(word: str) -> str:
@@ -110,9 +112,12 @@ class Thinker:
         )
 
     def _meant(self, noun: Noun) -> list[Thing]:
+        """Those first with which nothing has gone wrong; the hopeless are left out."""
         if noun.it:
             return self._chosen
-        return [thing for thing in self._known.things.values() if noun.means(thing)]
+        failed = self._known.failed
+        meant = [t for t in self._known.things.values() if noun.means(t) and failed[t.name] < GIVEN_UP]
+        return sorted(meant, key=lambda thing: failed[thing.name])
 
     def _add(self, what: str, *steps: Step) -> int:
         self._work.errands.append(Errand(what, list(steps)))

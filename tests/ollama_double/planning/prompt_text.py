@@ -1,6 +1,7 @@
 """A planning prompt taken apart again: its sections, the rooms with what is in them, the robots and what they can."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -12,6 +13,7 @@ HEADINGS = (
 _HEADING = re.compile(rf"({'|'.join(re.escape(h) for h in HEADINGS)})(?::| (?=[a-z0-9-]+$))(.*)")
 _NAME = re.compile(r"[a-z][a-z0-9-]*")
 _QUOTED = re.compile(r'"([^"]*)"')
+_FAILED = re.compile(r"could not [a-z_]+ ([a-z]+[0-9]+)")
 
 
 def sections(text: str) -> dict[str, list[str]]:
@@ -69,6 +71,8 @@ class Known:
     doors: set[str] = field(default_factory=set)
     """Things that are closed unless they are said to be open."""
     robots: dict[str, Robot] = field(default_factory=dict)
+    failed: Counter[str] = field(default_factory=Counter)
+    """Thing -> how often a robot could not do something with it."""
 
     def shut(self, name: str) -> bool:
         return name in self.doors and "open" not in self.things[name].flags
@@ -91,6 +95,8 @@ def read_known(parts: dict[str, list[str]]) -> Known:
         for name in re.sub(r"\(.*?\)|\".*?\"", "", names).split():
             robot = known.robots.setdefault(name, Robot(name))
             robot.skills = robot.skills | frozenset(re.findall(r"[a-z]+(?:_[a-z]+)*", skills))
+    for line in parts.get("went wrong", ()):
+        known.failed.update(_FAILED.findall(line))
     for robot in known.robots.values():
         if robot.holds and robot.holds not in known.things:
             known.things[robot.holds] = Thing(robot.holds, robot.room)

@@ -28,7 +28,7 @@ class Faulty(Exception):
 
 
 class Cannot(Exception):
-    """The model says that the task cannot be done, and why."""
+    """The model says that the task cannot be done, and why; the text is a sentence for people."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def object_with(text: str, key: str, listed: bool = True) -> dict[str, object]:
 def _whole(value: dict[str, object], key: str) -> dict[str, object]:
     why = value.get("cannot")
     if isinstance(why, str) and why.strip():
-        raise Cannot(one_line(why, 200))
+        raise Cannot(f"the model says: {one_line(why, 200)}")
     listed = value.get(key)
     if not isinstance(listed, list):
         raise Faulty([f'"{key}" must be a list'])

@@ -3,7 +3,7 @@
 from planners.asking import Model
 from planners.parse import Cannot, Written, entries, is_more, object_with, read_steps
 from planners.prompt import Names
-from planners.writing.assemble import nodes_of, refuse_with, reply_with
+from planners.writing.assemble import NOBODY, nodes_of, refuse_with, reply_with
 from planners.writing.dialogue import Dialogue
 from planners.writing.history import History
 from planners.writing.offered import Offered, offer, reply_schema, step_schema
@@ -24,9 +24,11 @@ class SingleShot:
 
     def make_plan(self, request: PlanRequest) -> PlanReply:
         """Raises ModelFailed when no answer can be used."""
-        offered = offer(request, self._names)
         past = self._history.of(request.task)
         dialogue = Dialogue(self._model, past.seed())
+        offered = offer(request, self._names)
+        if not offered.robots:
+            return refuse_with(request, NOBODY, dialogue)
         schema = reply_schema("steps", step_schema(offered))
         user = "\n".join(
             filter(None, (offered.team, offered.world, past.text(offered), offered.failures(), offered.task))
@@ -34,7 +36,7 @@ class SingleShot:
         try:
             steps, more = dialogue.ask(PURPOSE, user, schema, lambda text: _read(text, offered), _MOST_TOKENS)
         except Cannot as cannot:
-            return refuse_with(request, cannot, dialogue)
+            return refuse_with(request, str(cannot), dialogue)
         nodes = nodes_of(steps)
         past.keep(offered, nodes)
         return reply_with(request, NAME, nodes, more, dialogue)

@@ -12,7 +12,7 @@ from planners.baselines.resumes import Resumes
 from planners.hierarchical.planner import steps_of
 from planners.parse import Cannot, Faulty, Written, is_more, object_with
 from planners.prompt import Names, one_line
-from planners.writing.assemble import nodes_of, refuse_with, reply_with
+from planners.writing.assemble import NOBODY, nodes_of, refuse_with, reply_with
 from planners.writing.dialogue import Dialogue
 from planners.writing.history import History
 from planners.writing.offered import Offered, offer, reply_schema, step_schema
@@ -46,11 +46,13 @@ class Emos:
         past = self._history.of(request.task)
         dialogue = Dialogue(self._model, past.seed())
         offered = offer(request, self._names)
+        if not offered.robots:
+            return refuse_with(request, NOBODY, dialogue)
         resumes = self._resumes.of(offered, dialogue)
         try:
             subtasks, more = self._discuss(offered, past.text(offered), resumes, dialogue)
         except Cannot as cannot:
-            return refuse_with(request, cannot, dialogue)
+            return refuse_with(request, str(cannot), dialogue)
         steps: dict[str, Sequence[Written]] = {}
         for robot, own in _by_robot(subtasks):
             steps |= self._act(offered.only(robot), resumes[robot], own, dialogue)

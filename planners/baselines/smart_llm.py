@@ -11,7 +11,7 @@ from typing import Any
 from planners.asking import Model
 from planners.parse import Cannot, Faulty, Written, entries, is_more, object_with, read_steps
 from planners.prompt import Names
-from planners.writing.assemble import nodes_of, refuse_with, reply_with
+from planners.writing.assemble import NOBODY, nodes_of, refuse_with, reply_with
 from planners.writing.dialogue import Dialogue
 from planners.writing.history import History
 from planners.writing.offered import Offered, names_schema, offer, reply_schema, step_schema
@@ -51,6 +51,8 @@ class SmartLlm:
         past = self._history.of(request.task)
         dialogue = Dialogue(self._model, past.seed())
         offered = offer(request, self._names)
+        if not offered.robots:
+            return refuse_with(request, NOBODY, dialogue)
         user = "\n".join(
             filter(None, (offered.team, offered.world, past.text(offered), offered.failures(), offered.task))
         )
@@ -58,7 +60,7 @@ class SmartLlm:
         try:
             work = dialogue.ask(DECOMPOSE, user, schema, lambda text: _decomposed(text, offered), _MOST_TOKENS)
         except Cannot as cannot:
-            return refuse_with(request, cannot, dialogue)
+            return refuse_with(request, str(cannot), dialogue)
         subtasks = self._allocated(work, offered, dialogue) if work.subtasks else ()
         nodes = nodes_of(join(subtasks, work.steps))
         past.keep(offered, nodes)

@@ -9,7 +9,7 @@ from planners.asking import Model
 from planners.hierarchical.global_map import integrated
 from planners.parse import Cannot, Faulty, Written, entries, is_more, object_with, read_steps
 from planners.prompt import Names
-from planners.writing.assemble import nodes_of, refuse_with, reply_with
+from planners.writing.assemble import NOBODY, nodes_of, refuse_with, reply_with
 from planners.writing.dialogue import Dialogue
 from planners.writing.history import History
 from planners.writing.offered import Offered, offer, reply_schema, step_schema
@@ -37,10 +37,12 @@ class Hierarchical:
         self._names.learn(request.world)
         world = integrated(request, self._names, dialogue)
         offered = offer(request.model_copy(update={"world": world}), self._names)
+        if not offered.robots:
+            return refuse_with(request, NOBODY, dialogue)
         try:
             subtasks, more = self._decompose(offered, past.text(offered), dialogue)
         except Cannot as cannot:
-            return refuse_with(request, cannot, dialogue)
+            return refuse_with(request, str(cannot), dialogue)
         steps = self._functions(offered, subtasks, dialogue) if subtasks else {}
         nodes = nodes_of(join(subtasks, steps))
         past.keep(offered, nodes)

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 
-from planners.parse import Cannot, Written
+from planners.parse import Written
 from planners.tasks.planning import plan_id
 from planners.writing.dialogue import Dialogue
 from wire.messages.plan import Plan, PlanNode, PlanReply, PlanRequest, Refusal
 
 _TEXT_LIMIT = 2000
+NOBODY = "no robot is there"
 
 
 def nodes_of(steps: Sequence[Written]) -> tuple[PlanNode, ...]:
@@ -81,7 +82,7 @@ def reply_with(
     return PlanReply(task=request.task, epoch=request.epoch, plan=plan, calls=tuple(dialogue.judged))
 
 
-def refuse_with(request: PlanRequest, cannot: Cannot, dialogue: Dialogue) -> PlanReply:
-    """The model's own word that it cannot be done."""
-    refusal = Refusal(reason=f"the model says: {cannot}"[:_TEXT_LIMIT])
+def refuse_with(request: PlanRequest, reason: str, dialogue: Dialogue) -> PlanReply:
+    """Nothing can be planned."""
+    refusal = Refusal(reason=reason[:_TEXT_LIMIT])
     return PlanReply(task=request.task, epoch=request.epoch, refusal=refusal, calls=tuple(dialogue.judged))

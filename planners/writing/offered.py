@@ -10,7 +10,7 @@ from planners.vocabulary import known_types
 from planners.writing.capabilities import Capability, capabilities, skill_lines, who_can
 from wire.catalogue import type_row
 from wire.messages.plan import Action, PlanRequest
-from wire.messages.world import ObjectState, WorldState
+from wire.messages.world import ObjectState
 from wire.model import Id
 
 MOST_THINGS = 160
@@ -22,7 +22,7 @@ _TOKEN = re.compile(r"[a-z0-9][a-z0-9-]*")
 
 @dataclass(frozen=True)
 class Offered:
-    """`things`: short name -> the thing. `lines`: what stands in the prompt, by headings."""
+    """`things`: short name -> the thing. Of large worlds they are not all."""
 
     request: PlanRequest
     names: Names
@@ -91,11 +91,6 @@ def offer(request: PlanRequest, names: Names) -> Offered:
     )
 
 
-def view(request: PlanRequest, world: WorldState) -> PlanRequest:
-    """The same question about the world as a planner takes it to be."""
-    return request.model_copy(update={"world": world})
-
-
 def step_schema(offered: Offered, **more: Any) -> dict[str, Any]:
     """JSON schema of one step: nothing can be named that was not offered."""
     things = [*offered.things] or ["-"]
@@ -105,7 +100,7 @@ def step_schema(offered: Offered, **more: Any) -> dict[str, Any]:
         "do": {"enum": [*offered.skills]},
         "object": {"enum": things},
         "item": {"enum": things},
-        "room": {"enum": [*offered.rooms]},
+        "room": {"enum": [*offered.rooms] or ["-"]},
         "looking_for": {"type": "array", "maxItems": 8, "items": {"enum": [*offered.types] or ["-"]}},
         "point_m": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number"}},
         "params": {"type": "object", "properties": own, "additionalProperties": False},

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from planners.parse import Faulty, Written, entries, name_of, names_of, object_with
+from planners.parse import Faulty, Written, entries, name_of, names_of
 from planners.prompt import one_line
 from planners.writing.offered import Offered, names_schema, reply_schema
 from wire.model import Id
@@ -63,12 +63,6 @@ def read_subtasks(
     if faults:
         raise Faulty(faults)
     return tuple(found)
-
-
-def read_listed(text: str, offered: Offered) -> tuple[dict[str, object], tuple[Subtask, ...]]:
-    """The whole reply, and its sub-tasks. Raises Faulty, Cannot."""
-    document = object_with(text, "subtasks")
-    return document, read_subtasks(document, offered)
 
 
 def robot_of(value: object, offered: Offered, where: str, faults: list[str]) -> Id | None:

@@ -91,6 +91,17 @@ def test_a_task_that_cannot_be_done_is_refused_with_the_models_reason(name: str)
 
 
 @pytest.mark.parametrize("name", WRITERS)
+def test_without_robots_no_model_is_asked(name: str) -> None:
+    world, model = furnished(1, EVERYWHERE).world(), EmulatedModel()
+    lost = tuple(robot.model_copy(update={"status": "lost"}) for robot in world.robots)
+    for robots in (lost, ()):
+        reply = ask(WRITERS[name](site(), model), world.model_copy(update={"robots": robots}), "open the fridge")
+        assert reply.refusal is not None
+        assert reply.refusal.reason == "no robot is there"
+    assert model.said == []
+
+
+@pytest.mark.parametrize("name", WRITERS)
 def test_what_must_be_left_alone_is_left_alone_unless_the_not_is_overlooked(name: str) -> None:
     world = furnished(4, EVERYWHERE).world()
     words = "turn off all lamps but do not open the fridge"

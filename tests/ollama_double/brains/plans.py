@@ -132,7 +132,7 @@ class Planner:
     def reflect(self, request: ChatRequest, parts: Sections) -> object:
         words = {w for line in parts.get("your resume", []) for w in re.findall(r"[a-z]+(?:_[a-z]+)*", line)}
         for line in read_lines(parts.get("proposed for you", [])):
-            lacks = [s.do for s in steps_of(line, _imagined(line.what), False) if s.do not in words]
+            lacks = [s.do for s in steps_of(line, Known(), False) if s.do not in words]
             if lacks:
                 return {"agree": False, "why": f"{line.id} takes {lacks[0]}, which I cannot"}
         return {"agree": True}
@@ -158,11 +158,6 @@ PURPOSES: dict[str, Callable[[Planner, ChatRequest, Sections], object]] = {
     "You are one robot of a team and act": Planner.functions,
 }
 """How each system prompt begins."""
-
-
-def _imagined(what: str) -> Known:
-    """Nothing of the world is told to who only checks what it is able to do."""
-    return Known()
 
 
 def _step(step: Step) -> Row:

@@ -27,7 +27,7 @@ def draw(rows: Sequence[Row], label: str, path: Path) -> None:
     widest = max((row["rate"] for row in rows), default=0.0) or 1.0
     for number, (title, top, value) in enumerate(panels):
         left = _LEFT_PX + number * (_PANEL_PX + 80)
-        _frame(image, left, title, top, widest)
+        _frame(image, left, title, top, sorted({row["rate"] for row in rows}))
         for planner, colour in zip(planners, _colours(planners), strict=True):
             points = [_at(left, row["rate"] / widest, value(row) / top) for row in rows if row["planner"] == planner]
             cv2.polylines(image, [np.array(points, np.int32)], False, colour, 2, cv2.LINE_AA)
@@ -49,14 +49,15 @@ def _at(left: int, across: float, up: float) -> tuple[int, int]:
     return (int(left + (_PANEL_PX - 20) * across), int(bottom - (bottom - _TOP_PX - 20) * up))
 
 
-def _frame(image: np.ndarray, left: int, title: str, top: float, widest: float) -> None:
+def _frame(image: np.ndarray, left: int, title: str, top: float, rates: Sequence[float]) -> None:
     _say(image, title, (left, _TOP_PX), 0.5)
     for part in (0.0, 0.25, 0.5, 0.75, 1.0):
         cv2.line(image, _at(left, 0.0, part), _at(left, 1.0, part), _GRID, 1)
         x, y = _at(left, 0.0, part)
         _say(image, f"{part:.0%}" if top == 1.0 else f"{part * top:.0f}", (x - 58, y + 5), 0.4)
-        x, y = _at(left, part, 0.0)
-        _say(image, f"{part * widest:.0%}", (x - 10, y + 20), 0.4)
+    for rate in rates:
+        x, y = _at(left, rate / (rates[-1] or 1.0), 0.0)
+        _say(image, f"{rate:.0%}", (x - 10, y + 20), 0.4)
 
 
 def _say(image: np.ndarray, text: str, place: tuple[int, int], size: float) -> None:

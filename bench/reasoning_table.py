@@ -28,6 +28,7 @@ def _row(planner: str, rate: float, trials: Sequence[Trial]) -> dict[str, Any]:
         "succeeded": good,
         "success_low": round(low, 3),
         "success_high": round(high, 3),
+        "goals_true": round(sum(t["goals_true"] for t in trials) / sum(t["goals"] for t in trials), 3),
         "wrongly_done": sum(
             task["status"] == "done" and not t["success"] for task, t in zip(tasks, trials, strict=True)
         ),
@@ -49,14 +50,14 @@ def interval(good: int, number: int) -> tuple[float, float]:
 
 def table_text(rows: Sequence[dict[str, Any]], label: str) -> str:
     """For people. `label`: where the answers came from."""
-    lines = [
-        label,
-        f"{'planner':<14}{'errors':>7}{'succeeded':>11}{'wrongly done':>14}{'calls':>7}{'tokens':>9}{'replans':>9}{'path':>9}",
-    ]
+    head = (
+        f"{'planner':<14}{'errors':>7}{'succeeded':>11}{'goals true':>12}{'wrongly done':>14}{'calls':>7}{'tokens':>9}"
+    )
+    lines = [label, f"{head}{'replans':>9}{'path':>9}"]
     for row in rows:
         share = f"{row['succeeded']}/{row['episodes']}"
         lines.append(
-            f"{row['planner']:<14}{row['rate']:>7.0%}{share:>11}{row['wrongly_done']:>14}{row['calls']:>7g}"
+            f"{row['planner']:<14}{row['rate']:>7.0%}{share:>11}{row['goals_true']:>12.0%}{row['wrongly_done']:>14}{row['calls']:>7g}"
             f"{row['tokens']:>9g}{row['replans']:>9g}{row['path_m']:>7g} m"
         )
     return "\n".join(lines)

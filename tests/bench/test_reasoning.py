@@ -25,7 +25,16 @@ def trial(planner: str, home: int, rate: float, success: bool, tokens: int = 100
         "status": "done", "prompt_tokens": tokens, "completion_tokens": 0, "model_calls": 1, "replans": 0, "path_m": 5.0,
         "stand_in": True,
     }  # fmt: skip
-    return {"planner": planner, "home": home, "rate": rate, "success": success, "sim_s": 30.0, "task": task}
+    return {
+        "planner": planner,
+        "home": home,
+        "rate": rate,
+        "success": success,
+        "goals_true": 1 + success,
+        "goals": 2,
+        "sim_s": 30.0,
+        "task": task,
+    }
 
 
 TRIALS = [trial("single_shot", home, 0.1, home % 2 == 0, 1000 * home) for home in range(1, 5)]
@@ -42,6 +51,7 @@ def test_the_chance_of_an_error_in_a_reply_is_the_rate() -> None:
 def test_rows_count_what_was_true_and_what_was_only_believed() -> None:
     (row,) = summary(TRIALS)
     assert (row["succeeded"], row["episodes"], row["wrongly_done"], row["tokens"]) == (2, 4, 2, 2500)
+    assert row["goals_true"] == 0.75
     text = table_text([row], "emulated: ...")
     assert text.startswith("emulated")
     assert "2/4" in text

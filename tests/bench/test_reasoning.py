@@ -18,6 +18,7 @@ from bench.emulated import dials_at
 from bench.reasoning import Measurement, Order, orders
 from bench.reasoning_plot import draw
 from bench.reasoning_table import interval, summary, table_text
+from planners.planner import PLANNERS
 
 
 def trial(planner: str, home: int, rate: float, success: bool, tokens: int = 1000) -> dict[str, Any]:
@@ -137,6 +138,11 @@ def test_a_trial_is_a_whole_episode_and_is_not_made_twice(tmp_path: Path) -> Non
     again = subprocess.run(command, env=ENV, capture_output=True, text=True, check=False)
     assert json.loads(file.read_text())["trials"] == [made]
     assert again.returncode == 0
+
+
+def test_the_page_speaks_of_every_row() -> None:
+    page = Path("docs/compare-planners.md").read_text()
+    assert [name for name in PLANNERS if f"| `{name}` |" not in page] == []
 
 
 def test_an_unknown_experiment_is_named() -> None:

@@ -125,7 +125,7 @@ def test_it_can_be_ended_at_any_time(tmp_path: Path) -> None:
 @pytest.mark.timeout(900)
 def test_a_trial_is_a_whole_episode_and_is_not_made_twice(tmp_path: Path) -> None:
     file = tmp_path / "reasoning.json"
-    command = bench("--planners", "single_shot", "--homes", "6", "--rates", "0", "--json", str(file))
+    command = bench("--planners", "single_shot", "--homes", "15", "--rates", "0", "--json", str(file))
     done = subprocess.run(command, env=ENV, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     (made,) = json.loads(file.read_text())["trials"]

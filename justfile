@@ -148,6 +148,11 @@ ollama-double *args: install
 test-ollama *args: install
     {{ python }} -m pytest -s -v tests/planners/test_ollama_contract.py "$@"
 
+# experiments: bench reasoning compares planners over a model's error rate (--json FILE, --host URL --model NAME)
+[group('measure')]
+bench *args: install
+    exec {{ python }} -m bench "$@"
+
 # format the tree and rewrite the generated pages
 [group('develop')]
 fmt: install

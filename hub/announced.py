@@ -19,23 +19,48 @@ def parameter_fault(node: PlanNode, schema: str) -> str:
 
     Names and types are compared here; ranges are checked by the device, which refuses with a sentence of its own.
     """
+    properties, required = _announced(schema)
+    if properties is None:
+        return f"its robot announces parameters of {node.action} that are no JSON schema"
+    given = _given(node)
+    missing = [name for name in required if name not in given]
+    if missing:
+        return f"{', '.join(map(_named, missing))} is missing; {_takes(properties)}"
+    return _foreign(given, properties) or _first_wrong(node, properties)
+
+
+def own_parameter_fault(node: PlanNode, schema: str) -> str:
+    """The same of `params` alone: for actions whose object, item and room the hub itself knows."""
+    properties, _ = _announced(schema)
+    if properties is None:
+        return f"its robot announces parameters of {node.action} that are no JSON schema"
+    return _foreign(node.params, properties) or _first_wrong(node, properties)
+
+
+def _announced(schema: str) -> tuple[dict[str, object] | None, list[str]]:
+    """Properties (None when the text is no schema) and the names of those that must be given."""
     try:
         announced = json.loads(schema)
     except (ValueError, RecursionError):
-        announced = None
+        return None, []
     if not isinstance(announced, dict):
-        return f"its robot announces parameters of {node.action} that are no JSON schema"
+        return None, []
     properties, required = announced.get("properties", {}), announced.get("required", [])
     if not isinstance(properties, dict) or not isinstance(required, list):
-        return f"its robot announces parameters of {node.action} that are no JSON schema"
-    given = _given(node)
-    takes = f"it takes {', '.join(map(_named, properties)) or 'nothing'}"
-    missing = [name for name in required if name not in given]
-    if missing:
-        return f"{', '.join(map(_named, missing))} is missing; {takes}"
-    foreign = [name for name in given if name not in properties]
-    if foreign:
-        return f"{', '.join(map(_named, foreign))} is no parameter of it; {takes}"
+        return None, []
+    return properties, required
+
+
+def _takes(properties: Mapping[str, object]) -> str:
+    return f"it takes {', '.join(map(_named, properties)) or 'nothing'}"
+
+
+def _foreign(given: Mapping[str, object], properties: Mapping[str, object]) -> str:
+    names = [name for name in given if name not in properties]
+    return f"{', '.join(map(_named, names))} is no parameter of it; {_takes(properties)}" if names else ""
+
+
+def _first_wrong(node: PlanNode, properties: Mapping[str, object]) -> str:
     return next((fault for name, value in node.params.items() if (fault := _wrong(name, value, properties[name]))), "")
 
 

@@ -3,9 +3,13 @@
 from collections.abc import Callable
 from typing import Protocol
 
+from planners.baselines.emos import Emos
+from planners.baselines.smart_llm import SmartLlm
 from planners.goals.planner import GoalsPlanner
+from planners.hierarchical.planner import Hierarchical
 from planners.modelled import modelled
 from planners.scripted.planner import ScriptedPlanner
+from planners.single_shot import SingleShot
 from wire.messages.plan import PlanReply, PlanRequest
 from wire.site import Site
 
@@ -20,5 +24,9 @@ class Planner(Protocol):
 PLANNERS: dict[str, Callable[[Site], Planner]] = {
     "scripted": ScriptedPlanner,
     "goals": modelled(GoalsPlanner),
+    "single_shot": modelled(SingleShot),
+    "hierarchical": modelled(Hierarchical),
+    "smart_llm": modelled(SmartLlm),
+    "emos": modelled(Emos),
 }
 """Name -> factory. A new planner is one file and one row here."""

@@ -161,8 +161,7 @@ def label_of(given: argparse.Namespace, trials: Sequence[Trial]) -> str:
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="bench reasoning", description=__doc__)
-    asked = [name for name in PLANNERS if name != "goals"]
-    parser.add_argument("--planners", nargs="+", choices=list(PLANNERS), default=asked, metavar="NAME")
+    parser.add_argument("--planners", nargs="+", choices=list(PLANNERS), default=list(PLANNERS), metavar="NAME")
     parser.add_argument("--rates", nargs="+", type=float, default=list(RATES), help="of errors, from 0 to 1")
     parser.add_argument("--homes", nargs="+", type=int, default=list(HOMES), help="seeds")
     parser.add_argument("--robots", type=int, default=2)

@@ -31,7 +31,7 @@ def run_trial(
     with TemporaryDirectory(prefix="r2x-reasoning-") as folder, ExitStack() as stack:
         file = generate_home(home, Path(folder) / "site.toml", "--robots", str(robots))
         url = host or stack.enter_context(emulated_model(rate, home))
-        choice = PlannerChoice(name=planner, model=model, host=url, fallback=False, budget=BUDGET)
+        choice = PlannerChoice(name=planner, model=model, host=url, grammar=False, fallback=False, budget=BUDGET)
         site = load_site(file).model_copy(update={"planner": choice})
         result = run_episode(site, Path(folder), None, LIMIT_S)
     task = {name: result["task"][name] for name in _KEPT}

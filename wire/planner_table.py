@@ -57,6 +57,8 @@ class PlannerChoice(Message):
     replies: Literal["off", "keep", "only"] = "off"
     """`keep`: an answer that was given before to the same question is given again, others are kept. `only`: nothing but
     kept answers, no server. They lie in the folder `replies` of the site's state."""
+    grammar: bool = True
+    """`goals` has the grammar read first. Without it the model reads everything, to compare models."""
     fallback: bool = True
     """Where the model fails, `scripted` plans. Without it the task is refused with the reason, as experiments want."""
     budget: Budget = Budget()

@@ -26,6 +26,7 @@ class GoalsPlanner:
         self._tasks = TaskPlanner(site, NAME)
         self._model = model
         self._names = Names()
+        self._grammar_first = site.planner.grammar
 
     def make_plan(self, request: PlanRequest) -> PlanReply:
         """Goals already settled for the task are planned for as they are; else the instruction is read."""
@@ -45,7 +46,9 @@ class GoalsPlanner:
     def read(self, request: PlanRequest, calls: list[ModelCall]) -> tuple[Goal, ...]:
         """By the grammar, else by the model, whose calls are added to `calls`. Raises Unclear, ModelFailed."""
         try:
-            return read_goals(request.instruction, request.world)
+            goals = read_goals(request.instruction, request.world)
+            if self._grammar_first:
+                return goals
         except Unclear as unclear:
             if unclear.question or unclear.final:
                 raise

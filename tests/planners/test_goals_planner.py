@@ -33,9 +33,9 @@ GOOD = json.dumps({"goals": [{"of": SAY, "p": "in", "a": "Mug", "b": "Sink"}]})
 WRONG = json.dumps({"goals": [{"of": SAY, "p": "in", "a": "Apple", "b": "Sink"}]})
 
 
-def row(model: Any) -> Planner:
+def row(model: Any, grammar: bool = True) -> Planner:
     """As the table has it."""
-    here = site().model_copy(update={"planner": PlannerChoice(name="goals")})
+    here = site().model_copy(update={"planner": PlannerChoice(name="goals", grammar=grammar)})
     return modelled(GoalsPlanner, lambda _: model, sleep=lambda _: None)(here)
 
 
@@ -50,6 +50,16 @@ def test_what_the_grammar_reads_asks_nobody() -> None:
     assert reply.plan is not None
     assert (reply.plan.planner, reply.plan.prompt_tokens) == ("goals", 0)
     assert (model.asked, reply.calls) == ([], ())
+
+
+def test_without_its_grammar_the_model_reads_everything() -> None:
+    model = WrittenModel([GOOD.replace("stash the mug in", "put the mug in")])
+    say = "put the mug in the sink"
+    request = PlanRequest(task="t", epoch=1, instruction=say, world=home_world(), now_s=1.0)
+    reply = row(model, grammar=False).make_plan(request)
+    assert reply.plan is not None
+    assert written(reply.plan.goals) == "in(Mug,Sink)"
+    assert [call.purpose for call in reply.calls] == ["goals"]
 
 
 def test_one_question_makes_goals_and_code_makes_the_plan() -> None:

@@ -15,6 +15,8 @@ from wire.model import Vec2, Vec3
 USUAL_DIVISIONS = 8
 """Of the picture's width, which are the paper's 80 pixels of 640."""
 FEWEST, MOST = 4, 16
+DENSE_PX = 60
+"""Cells smaller than this are labelled at every other vertex."""
 LEAST_CELL_PX = 32
 """Labels do not fit into less."""
 CELL_FROM_M, CELL_TO_M = 0.25, 1.0
@@ -65,6 +67,11 @@ class Grid:
     def rows(self) -> range:
         """The j of equation 1, upwards."""
         return _lines(self.height_px, self.cell_px, first_is_left=False)
+
+    def labelled(self) -> list[tuple[int, int]]:
+        """The vertices at which their numbers are written."""
+        step = 1 if self.cell_px >= DENSE_PX else 2
+        return [(i, j) for i in self.columns() for j in self.rows() if i % step == j % step == 0]
 
 
 def _lines(size_px: int, cell_px: float, *, first_is_left: bool) -> range:
@@ -139,7 +146,8 @@ def cells_of(grid: Grid, lens: Lens, point_enu_m: Vec3) -> Vec2 | None:
 
 
 def draw(rgb: Image, grid: Grid) -> Image:
-    """The picture with the grid over it: lines of one pixel, red axes, and `i,j` beside every vertex."""
+    """The picture with the grid over it: lines of one pixel, red axes, and `i,j` beside every vertex, or every other one
+    where cells are small: labels hide what is under them."""
     drawn = rgb.copy()
     height_px, width_px = grid.height_px, grid.width_px
     for i in grid.columns():
@@ -149,10 +157,9 @@ def draw(rgb: Image, grid: Grid) -> Image:
         v = round(grid.pixel(0.0, j)[1])
         cv2.line(drawn, (0, v), (width_px - 1, v), AXIS if j == 0 else LINE, 1)
     scale = min(0.4, 0.32 * grid.cell_px / 60.0 + 0.02)
-    for i in grid.columns():
-        for j in grid.rows():
-            u_px, v_px = grid.pixel(i, j)
-            at = (round(u_px) + 2, round(v_px) - 3)
-            for ink, thick in ((HALO, 2), (INK, 1)):
-                cv2.putText(drawn, f"{i},{j}", at, cv2.FONT_HERSHEY_SIMPLEX, scale, ink, thick, cv2.LINE_AA)
+    for i, j in grid.labelled():
+        u_px, v_px = grid.pixel(i, j)
+        at = (round(u_px) + 2, round(v_px) - 3)
+        for ink, thick in ((HALO, 2), (INK, 1)):
+            cv2.putText(drawn, f"{i},{j}", at, cv2.FONT_HERSHEY_SIMPLEX, scale, ink, thick, cv2.LINE_AA)
     return drawn

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import inf
 
 from planners.looking import Looks
+from planners.opening import vision_of
 from planners.planner import PLANNERS, Planner
 from wire.bus import Event, Node, Request
 from wire.clock import owner_of
@@ -45,5 +46,5 @@ def build(site: Site, process_id: str, planner: str | None = None) -> PlannerCor
     if name not in PLANNERS:
         raise SiteError(f"there is no planner {name!r}; planner.name in the site file can be {', '.join(PLANNERS)}")
     chosen = site.planner.model_copy(update={"name": name})
-    looks = Looks(None, time_stands=bool(owner_of(site)))
+    looks = Looks(vision_of(site), time_stands=bool(owner_of(site)))
     return PlannerCore(PLANNERS[name](site.model_copy(update={"planner": chosen})), looks)

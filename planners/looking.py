@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from planners.asking import Answer, Model, ModelFailed, Question
+from planners.asking import Model, ModelFailed, Question
 from wire.bus import Request
 from wire.messages.look import LookReply, LookRequest
 
@@ -14,20 +14,7 @@ MOST_WAITING = 32
 LONGEST_WAIT_S = 60.0
 """Whoever waited longer has half of its time left, which is less than a slow model needs."""
 MOST_CHARACTERS = 32_000
-NO_MODEL = "no model looks at pictures here: name one in the site file's table [planner]"
-
-
-class OneAtATime:
-    """A model that several threads may ask: whoever comes second waits."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-        self._turn = threading.Lock()
-
-    def ask(self, question: Question) -> Answer:
-        """See planners.asking.Model."""
-        with self._turn:
-            return self._model.ask(question)
+NO_MODEL = "no model looks at pictures here: name one as `vision` in the site file's table [planner]"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import pytest
 
 from planners.asking import Answer, ModelFailed, Question
 from planners.core import PlannerCore
-from planners.looking import LONGEST_WAIT_S, MOST_WAITING, NO_MODEL, Looks, OneAtATime
+from planners.looking import LONGEST_WAIT_S, MOST_WAITING, NO_MODEL, Looks
 from tests.planners.toy import site
 from wire.bus import Event, Node, Request
 from wire.keys import SERVICE
@@ -217,28 +217,6 @@ def test_an_endless_answer_is_not_passed_on() -> None:
     asked = Asked(look())
     core.step(0.0, (asked.event,))
     assert "longer than" in asked.reply.reason
-
-
-def test_two_threads_take_turns() -> None:
-    inside, most = [], []
-
-    class Counting:
-        def ask(self, question: Question) -> Answer:
-            inside.append(1)
-            most.append(len(inside))
-            threading.Event().wait(0.01)
-            inside.pop()
-            return Answer("", CALL)
-
-    model = OneAtATime(Counting())
-    question = Question("look", "", "")
-    threads = [threading.Thread(target=model.ask, args=(question,)) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert max(most) == 1
-    assert len(most) == 4
 
 
 def test_cameras_and_robots_may_ask_and_the_hub_has_no_need_to() -> None:

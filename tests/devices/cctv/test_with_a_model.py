@@ -34,7 +34,7 @@ TOWEL_AT = {"name": "Towel", "x": 3.0, "y": -2.0, "state": None}
 
 def site(perception: Perception, every_s: float = 1.0) -> Site:
     camera = SITE["camera"][0] | {"perception": perception, "look_every_s": every_s}
-    return parse_site(SITE | {"camera": [camera]}, "test")
+    return parse_site(SITE | {"camera": [camera], "planner": {"vision": "qwen2.5vl:7b"}}, "test")
 
 
 def says(*objects: object, events: Sequence[str] = (), texts: Sequence[str] = ()) -> InProcess:

@@ -7,12 +7,13 @@ detector of cubes sees; so its answers say something of the pipeline and nothing
 import json
 import re
 from functools import lru_cache
-from math import radians
+from math import degrees, radians
 from typing import Any
 
 import cv2
 import numpy as np
 
+from devices.vision.cube_detector import CubeDetector
 from devices.vision.detector import Detection, EmbeddedDetector
 from devices.vision.gridmask import Grid
 from devices.vision.lens import Image, Lens
@@ -21,6 +22,7 @@ from tests.ollama_double.brain import ChatRequest
 from tests.ollama_double.dials import Dials
 
 MARK = "A coordinate grid is drawn over the picture."
+ROOM = "from a fixed camera high in a room"
 _PICTURE = re.compile(r"Picture: (\d+) x (\d+) pixels\. Grid: cells of ([\d.]+) pixels")
 _CAMERA = re.compile(r"Camera: ([\d.]+) m above the floor, tilted ([\d.]+) degrees down, focal length ([\d.]+) pixels")
 _NAMES = re.compile(r"^Names: (.+)$", re.MULTILINE)
@@ -57,7 +59,7 @@ class LookBrain:
             return f"I was told of a picture of {width} x {height}, but see one of {rgb.shape[1]} x {rgb.shape[0]}."
         grid = Grid(width, height, cell)
         lens = Lens(width, height, float(camera[3]), (0.0, 0.0, float(camera[1])), 0.0, radians(float(camera[2])))
-        report = _room(rgb, grid, lens)
+        report = _room(rgb, grid, lens) if ROOM in request.system else _above(rgb, grid, lens)
         offered = set(names[1].split(", "))
         report["objects"] = [o for o in report["objects"] if o["name"] in offered]
         if report["objects"] and self._dials.slips("invented_id", request.prompt, request.seed):
@@ -79,6 +81,23 @@ def _room(rgb: Image, grid: Grid, lens: Lens) -> dict[str, Any]:
         for name, state in {o["name"]: o["state"] for o in objects if o["name"] in open_ones}.items()
     ]
     return {"objects": objects[:40], "events": events[:3], "texts": []}
+
+
+def _above(rgb: Image, grid: Grid, lens: Lens) -> dict[str, Any]:
+    """What stands on a floor, as a drone's prompt asks for it."""
+    found = _cubes().report(without_lines(rgb, grid), lens).entries
+    objects = [
+        {
+            "name": e.name,
+            "x": round(e.x_cells, 2),
+            "y": round(e.y_cells, 2),
+            "yaw_deg": None if e.yaw_rad is None else round(degrees(e.yaw_rad)),
+            "role": None,
+            "part": e.part,
+        }
+        for e in found
+    ]
+    return {"objects": objects[:24], "texts": []}
 
 
 def _object(detection: Detection, grid: Grid) -> dict[str, Any]:
@@ -104,6 +123,11 @@ def without_lines(rgb: Image, grid: Grid) -> Image:
         u, v = (round(p) for p in grid.pixel(i, j))
         mask[max(0, v - 14) : max(0, v), max(0, u) : u + 40] = 255
     return np.asarray(cv2.inpaint(rgb, mask, 2, cv2.INPAINT_TELEA), dtype=np.uint8)
+
+
+@lru_cache(maxsize=1)
+def _cubes() -> CubeDetector:
+    return CubeDetector()
 
 
 @lru_cache(maxsize=1)

@@ -87,6 +87,11 @@ class Track:
         self.confidence += (detection.confidence - self.confidence) / min(self.sightings, 4)
         self._move(sighting)
 
+    def adopt(self, sighting: Sighting) -> None:
+        """The detector sees what a model alone has seen: from now on it is its own, and is where the detector says."""
+        self.eye, self.first = "embedded", sighting
+        self.position = np.array(sighting.position_enu_m)
+
     def second(self, sighting: Sighting) -> None:
         """Another eye has seen it, too: surer of what it is, no surer of where, for the detector knows that better."""
         self._vote(sighting.detection)

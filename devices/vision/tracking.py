@@ -59,7 +59,8 @@ class Tracker:
         matched = associate(self.tracks, seen.sightings)
         for index, number in matched.items():
             track = self.tracks[number]
-            track.eye = "embedded"
+            if track.eye != "embedded":
+                track.adopt(seen.sightings[index])
             track.see(seen.sightings[index], seen.stamp_s)
         return self._tell(matched, [s for i, s in enumerate(seen.sightings) if i not in matched], seen)
 

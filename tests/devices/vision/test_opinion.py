@@ -118,8 +118,10 @@ def test_a_thing_that_the_detector_sees_later_is_its_own_from_then_on() -> None:
     tracker = Tracker()
     tracker.take_opinion(model(0.0, APPLE))
     tracker.take_opinion(model(10.0, APPLE))
+    assert tracker.tracks[0].position_enu_m != pytest.approx(APPLE[1:], abs=1e-3)
     told = tracker.update(seen(10.5, sighting(APPLE)))
     assert names(told) == ["Apple"]
+    assert told.objects[0].position_enu_m == pytest.approx(APPLE[1:], abs=1e-9), "where it is the detector knows better"
     assert len(tracker.tracks) == 1
     assert tracker.take_opinion(model(20.0, APPLE)).objects == ()
 

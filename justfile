@@ -133,6 +133,16 @@ perf *args: install
 measure-detector *args: install
     exec {{ python }} -m sim.training.measure "$@"
 
+# places read with and without GridMask, by the detector and by a vision model: (--model NAME, --pictures N, --json)
+[group('measure')]
+gridmask-eval *args: install
+    exec {{ python }} -m bench.gridmask "$@"
+
+# labelled pictures with GridMask, seeded, for tuning a vision model: gridmask-data N --out DIR (--seed N)
+[group('measure')]
+gridmask-data *args: install
+    exec {{ python }} -m sim.training.cubes.dataset "$@"
+
 # the demo on many seeds: success, steps, path for each (--seeds 0-19)
 [group('measure')]
 demo-seeds *args: install

@@ -7,6 +7,7 @@ from pydantic import ValidationError
 
 from wire.faults import describe
 from wire.messages.driver import CameraFrame
+from wire.messages.look import LookRequest
 from wire.messages.operator import TaskState, WhyReply
 from wire.messages.plan import PlanReply, PlanRequest, PlanState
 from wire.messages.truth import TruthState
@@ -16,10 +17,12 @@ from wire.model import Message
 M = TypeVar("M", bound=Message)
 
 PICTURE_BYTES = 8_000_000
+LOOK_BYTES = 800_000
 WORLD_BYTES = 2_000_000
 SMALL_BYTES = 300_000
 _MAX_BYTES: dict[type[Message], int] = {
     CameraFrame: PICTURE_BYTES,
+    LookRequest: LOOK_BYTES,
     **dict.fromkeys((WorldState, WorldDelta, TruthState, PlanRequest, PlanReply, PlanState), WORLD_BYTES),
     **dict.fromkeys((TaskState, WhyReply), WORLD_BYTES),
 }

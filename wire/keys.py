@@ -7,7 +7,7 @@ A key is `<realm>/<path>`; `{id}` stands for the device, robot or process. `publ
 from dataclasses import dataclass
 from typing import Literal
 
-from wire.messages import clock, command, driver, observation, operator, plan, truth, world
+from wire.messages import clock, command, driver, look, observation, operator, plan, truth, world
 from wire.model import Message
 
 Role = Literal["hub", "planner", "cctv", "robot", "sim", "view", "console", "evaluator"]
@@ -108,6 +108,8 @@ SERVICES: tuple[Service, ...] = (
             ("robot",), ("hub",), "every goal a device remembers"),
     Service("make_plan", "planner/plan", plan.PlanRequest, plan.PlanReply, 60.0,
             ("planner",), ("hub",), "turn a task and a world into a plan or a refusal"),
+    Service("look_at", "planner/look", look.LookRequest, look.LookReply, 120.0,
+            ("planner",), ("cctv", "robot"), "show a vision model one picture; plans go before"),
     Service("snapshot", "world/snapshot", world.SnapshotRequest, world.WorldState, 2.0,
             ("hub",), ("view", "console", "planner", "robot", "cctv"), "the whole fused world state"),
     Service("task", "hub/task", operator.TaskRequest, operator.TaskState, 5.0,

@@ -46,6 +46,10 @@ class Door(Message):
     """Of its lintel; only what flies asks."""
 
 
+Perception = Literal["embedded", "vlm", "both"]
+"""Who looks at a camera's pictures: the shipped detector, a vision model behind the planner's process, or both."""
+
+
 class Camera(Message):
     """A fixed camera with its calibration. `source`: `mesh` for frames on the mesh, else a URL, a path or a number."""
 
@@ -59,6 +63,9 @@ class Camera(Message):
     focal_px: float = Field(gt=0.0)
     source: str = "mesh"
     picture_hz: float = Field(default=2.0, gt=0.0, le=60.0)
+    perception: Perception = "embedded"
+    look_every_s: float = Field(default=10.0, ge=1.0, le=3600.0)
+    """A vision model is shown no more than one picture in this time."""
 
 
 class Robot(Message):

@@ -21,6 +21,16 @@ def site_faults(site: "Site") -> Iterator[str]:
     yield from _no_owner(site)
     yield from _bad_links(site)
     yield from _vain_faults(site)
+    yield from _blind_cameras(site)
+
+
+def _blind_cameras(site: "Site") -> Iterator[str]:
+    for number, camera in enumerate(site.camera):
+        if camera.perception != "embedded" and not site.planner.vision:
+            yield (
+                f"camera.{number}.perception: {camera.perception} needs a vision model; "
+                "name one in planner.vision, or set embedded"
+            )
 
 
 def _repeated_ids(site: "Site") -> Iterator[str]:

@@ -15,4 +15,5 @@ def build(
     """Runs in one process may share one detector, which keeps nothing."""
     row = camera_of(site, process, camera)
     pictures = None if row.source == MESH else SourceReader(row)
-    return CctvCore(site, process, row, detector or EmbeddedDetector(), pictures)
+    eyes = None if row.perception == "vlm" else detector or EmbeddedDetector()
+    return CctvCore(site, process, row, eyes, pictures)

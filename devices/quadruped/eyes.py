@@ -8,7 +8,7 @@ import numpy as np
 
 from devices.quadruped.look import Look, Points, Thing
 from devices.vision.detector import Detection, Detector
-from devices.vision.layout import ROBOT, detector_types
+from devices.vision.layout import ROBOT, known_types
 from devices.vision.lens import Depth, Lens
 from devices.vision.look import Seen, look_at_frame
 from devices.vision.picture import PictureError
@@ -94,7 +94,7 @@ def alternatives(detection: Detection) -> dict[str, float]:
     shares = np.exp(detection.log_probs - detection.log_probs.max())
     return {
         type: float(detection.confidence * share)
-        for type, share in zip(detector_types(), shares, strict=True)
+        for type, share in zip(known_types(), shares, strict=False)
         if detection.confidence * share >= SUSPICION and type not in (detection.type, ROBOT)
     }
 

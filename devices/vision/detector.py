@@ -37,7 +37,10 @@ class Detection:
     props: dict[str, float] = field(default_factory=dict)
     """Probability that a property that this type has is true."""
     log_probs: Floats = field(default_factory=lambda: np.zeros(0), compare=False)
-    """Log-probability of every type of `layout.detector_types()`: votes to be added up over pictures."""
+    """Log-probability of every type of `layout.detector_types()`, or of all `layout.known_types()`: votes to be added up
+    over pictures."""
+    pixel_sd_px: float | None = None
+    """How well the detector knows the place in the picture; None: as the size of the box lets one expect."""
 
 
 class Detector(Protocol):
@@ -116,9 +119,9 @@ def _props(type_name: str, logits: Floats) -> dict[str, float]:
 
 def _all_types(head: layout.Head, log_probs: Floats) -> Floats:
     """Spread a head's log-probabilities over all types; the other head's types are all but impossible."""
-    everything = np.full(len(layout.detector_types()), -12.0)
+    everything = np.full(len(layout.detector_types()), layout.IMPOSSIBLE)
     index = {name: i for i, name in enumerate(layout.detector_types())}
-    everything[[index[name] for name in head.types]] = np.maximum(log_probs, -12.0)
+    everything[[index[name] for name in head.types]] = np.maximum(log_probs, layout.IMPOSSIBLE)
     return everything
 
 

@@ -13,6 +13,9 @@ from wire.catalogue import catalogue, modelled_types
 ROBOT = "Robot"
 """Seen, so that it is known to hide things; never published as an object."""
 
+IMPOSSIBLE = -12.0
+"""Log-probability of a type that somebody cannot tell or does not know."""
+
 MULTIPLE_PX = 32
 """Pictures are padded to a multiple of this."""
 
@@ -43,6 +46,21 @@ class Head:
 def detector_types() -> tuple[str, ...]:
     """All classes: the modelled types in their order, then the robot."""
     return (*modelled_types(), ROBOT)
+
+
+@lru_cache(maxsize=1)
+def known_types() -> tuple[str, ...]:
+    """What somebody with more words than the network may call things: its classes, then the catalogue's other types."""
+    own = detector_types()
+    others = sorted(name for name, row in catalogue().items() if name not in own and row.kind != "structure")
+    return (*own, *others)
+
+
+def widened(log_probs: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Log-probabilities over the network's classes, or over all types already, as over all `known_types()`."""
+    wide = np.full(len(known_types()), IMPOSSIBLE)
+    wide[: len(log_probs)] = log_probs
+    return wide
 
 
 @lru_cache(maxsize=1)

@@ -18,6 +18,7 @@ from devices.vision.detector import Detector
 from devices.vision.lens import Depth, Lens
 from devices.vision.picture import decode_frame
 from devices.vision.projection import Sighting, locate
+from devices.vision.track import Eye
 from devices.vision.walls import before_walls
 from wire.messages.driver import CameraFrame
 from wire.site import Door, Wall
@@ -31,6 +32,7 @@ class Seen:
     lens: Lens
     depth_m: Depth | None
     sightings: tuple[Sighting, ...]
+    eye: Eye = "embedded"
 
 
 def look_at_frame(

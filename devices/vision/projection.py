@@ -98,6 +98,8 @@ def on_plane(detection: Detection, ray: Floats, lens: Lens) -> Sighting | None:
 
 
 def _pixel_sd(detection: Detection) -> float:
+    if detection.pixel_sd_px is not None:
+        return detection.pixel_sd_px
     left, top, right, bottom = detection.box_px
     return PIXEL_SD_PX + BOX_SD * max(right - left, bottom - top)
 

@@ -15,20 +15,23 @@ MOST_REPEATS = 10
 """Then it looks anyway: what was overlooked may be found, and slow changes of light are taken in."""
 
 
+Cells = NDArray[np.float32]
+
+
 class SteadyDetector:
     """Wraps the detector of one camera. A camera that has moved is looked through anew."""
 
     def __init__(self, detector: Detector) -> None:
         self._detector = detector
         self._lens: Lens | None = None
-        self._cells: NDArray[np.float32] | None = None
+        self._cells: Cells | None = None
         self._found: list[Detection] = []
         self._repeats = 0
 
     def look(self, rgb: Image, lens: Lens) -> list[Detection]:
         """See devices.vision.detector.Detector; what was found in the last picture that differed."""
-        cells = _cells(rgb)
-        if lens == self._lens and self._repeats < MOST_REPEATS and _alike(cells, self._cells):
+        cells = cells_of(rgb)
+        if lens == self._lens and self._repeats < MOST_REPEATS and alike(cells, self._cells):
             self._repeats += 1
             return list(self._found)
         self._found = self._detector.look(rgb, lens)
@@ -36,11 +39,13 @@ class SteadyDetector:
         return list(self._found)
 
 
-def _cells(rgb: Image) -> NDArray[np.float32]:
+def cells_of(rgb: Image) -> Cells:
+    """Mean colours of a picture's squares."""
     height_px, width_px = rgb.shape[:2]
     size = (max(1, width_px // CELL_PX), max(1, height_px // CELL_PX))
     return np.asarray(cv2.resize(rgb, size, interpolation=cv2.INTER_AREA), dtype=np.float32)
 
 
-def _alike(a: NDArray[np.float32], b: NDArray[np.float32] | None) -> bool:
+def alike(a: Cells, b: Cells | None) -> bool:
+    """Whether nothing that counts has changed from one picture to the other."""
     return b is not None and a.shape == b.shape and float(np.abs(a - b).max()) < CHANGED_LEVELS

@@ -1,16 +1,20 @@
 """One thing, as one camera has come to know it over several pictures."""
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 
 from devices.vision import layout
+from devices.vision.detector import Detection
 from devices.vision.lens import Floats
 from devices.vision.projection import Sighting
 from wire.catalogue import PROP_FLAG, type_row
 from wire.messages.observation import Covariance, ObjectObservation
 from wire.model import Vec3
 
+Eye = Literal["embedded", "model"]
+"""Who looked at a picture: the detector, often and exactly, or a vision model, rarely and late."""
 CONFIRM_SIGHTINGS = 2
 VOTE_MEMORY = 0.8
 """What is left of earlier votes after a new one: pictures of one camera are not independent."""
@@ -19,6 +23,8 @@ PROP_LIMIT = 4.0
 PROP_SILENCE = 0.4
 """Log-odds nearer to nought than this say nothing."""
 POSITION_GAIN = 0.3
+SECOND_WEIGHT = 0.5
+"""Of what is left to full confidence, so much is gained by a second eye that is sure."""
 
 
 @dataclass
@@ -28,6 +34,8 @@ class Track:
     name: str
     first: Sighting
     stamp_s: float
+    eye: Eye = "embedded"
+    """The detector's from the first time on that it has seen it, whoever saw it first."""
     votes: Floats = field(init=False)
     prop_log_odds: dict[str, float] = field(default_factory=dict)
     position: Floats = field(init=False)
@@ -39,14 +47,14 @@ class Track:
     box_px: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        self.votes = np.zeros(len(layout.detector_types()))
+        self.votes = np.zeros(len(layout.known_types()))
         self.position = np.array(self.first.position_enu_m)
         self.covariance_m2 = self.first.covariance_m2
         self.see(self.first, self.stamp_s)
 
     @property
     def type(self) -> str:
-        return layout.detector_types()[int(self.votes.argmax())]
+        return layout.known_types()[int(self.votes.argmax())]
 
     @property
     def type_probabilities(self) -> Floats:
@@ -75,9 +83,23 @@ class Track:
         self.known += 1
         self.misses = 0
         self.box_px = detection.box_px
-        self.votes = VOTE_MEMORY * self.votes + detection.log_probs
+        self._vote(detection)
         self.confidence += (detection.confidence - self.confidence) / min(self.sightings, 4)
         self._move(sighting)
+
+    def adopt(self, sighting: Sighting) -> None:
+        """The detector sees what a model alone has seen: from now on it is its own, and is where the detector says."""
+        self.eye, self.first = "embedded", sighting
+        self.position = np.array(sighting.position_enu_m)
+
+    def second(self, sighting: Sighting) -> None:
+        """Another eye has seen it, too: surer of what it is, no surer of where, for the detector knows that better."""
+        self._vote(sighting.detection)
+        self.confidence = 1.0 - (1.0 - self.confidence) * (1.0 - SECOND_WEIGHT * sighting.detection.confidence)
+
+    def _vote(self, detection: Detection) -> None:
+        """On its type and its properties."""
+        self.votes = VOTE_MEMORY * self.votes + layout.widened(detection.log_probs)
         for prop, probability in detection.props.items():
             p = min(max(probability, 0.02), 0.98)
             log_odds = PROP_MEMORY * self.prop_log_odds.get(prop, 0.0) + float(np.log(p / (1.0 - p)))

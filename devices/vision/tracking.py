@@ -8,6 +8,7 @@ import numpy as np
 
 from devices.vision import layout
 from devices.vision.look import Seen
+from devices.vision.opinion import compare
 from devices.vision.projection import Sighting
 from devices.vision.track import Track
 from devices.vision.visibility import should_be_visible
@@ -56,22 +57,43 @@ class Tracker:
     def update(self, seen: Seen) -> Tracked:
         """Take in one picture."""
         matched = associate(self.tracks, seen.sightings)
+        for index, number in matched.items():
+            track = self.tracks[number]
+            if track.eye != "embedded":
+                track.adopt(seen.sightings[index])
+            track.see(seen.sightings[index], seen.stamp_s)
+        return self._tell(matched, [s for i, s in enumerate(seen.sightings) if i not in matched], seen)
+
+    def take_opinion(self, seen: Seen) -> Tracked:
+        """Take in what a vision model saw, perhaps a while ago: what the detector knows becomes surer, the rest is new.
+
+        What is told of it are the things that the model alone has seen.
+        """
+        opinion = compare(self.tracks, seen)
+        for index, number in opinion.agreed.items():
+            track = self.tracks[number]
+            if track.eye == seen.eye:
+                track.see(seen.sightings[index], seen.stamp_s)
+            else:
+                track.second(seen.sightings[index])
+        return self._tell(opinion.agreed, [seen.sightings[i] for i in opinion.new], seen)
+
+    def _tell(self, matched: dict[int, int], new: Sequence[Sighting], seen: Seen) -> Tracked:
+        """Who missed a thing is only who has seen it before; and each eye tells of its own things."""
         hit = set(matched.values())
-        for index, track in matched.items():
-            self.tracks[track].see(seen.sightings[index], seen.stamp_s)
-        unseen = [t for i, t in enumerate(self.tracks) if i not in hit]
-        current = [self.tracks[i] for i in sorted(hit)]
+        unseen = [t for i, t in enumerate(self.tracks) if i not in hit and t.eye == seen.eye]
+        current = [self.tracks[i] for i in sorted(hit) if self.tracks[i].eye == seen.eye]
         gone = self._miss(unseen, seen)
-        current += self._begin([s for i, s in enumerate(seen.sightings) if i not in matched], seen.stamp_s)
+        current += self._begin(new, seen)
         told = [t for t in current if t.confirmed and t.type != layout.ROBOT]
         changes = self._changes(told) + [Change("gone", t) for t in gone]
         return Tracked(tuple(t.observation() for t in told), tuple(_absence(t) for t in gone), tuple(changes))
 
-    def _begin(self, sightings: Sequence[Sighting], stamp_s: float) -> list[Track]:
+    def _begin(self, sightings: Sequence[Sighting], seen: Seen) -> list[Track]:
         started = []
         for sighting in sightings:
             self._count += 1
-            started.append(Track(f"t{self._count}", sighting, stamp_s))
+            started.append(Track(f"t{self._count}", sighting, seen.stamp_s, seen.eye))
         self.tracks += started
         return started
 
@@ -150,7 +172,8 @@ def pair_cost(track: Track, sighting: Sighting) -> float | None:
 
 def type_agreement(track: Track, sighting: Sighting) -> float:
     """Log of the probability that track and sighting are of one type, were their opinions independent."""
-    return log(max(1e-9, float(track.type_probabilities @ np.exp(sighting.detection.log_probs))))
+    log_probs = sighting.detection.log_probs
+    return log(max(1e-9, float(track.type_probabilities[: len(log_probs)] @ np.exp(log_probs))))
 
 
 def _absence(track: Track) -> Absence:

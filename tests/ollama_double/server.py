@@ -12,6 +12,7 @@ from tests.ollama_double.bodies import StandIn
 from tests.ollama_double.brain import Brain
 from tests.ollama_double.chat import Chat
 from tests.ollama_double.counting import Counter, counter
+from tests.ollama_double.creating import BLOBS, Creating
 from tests.ollama_double.scenarios import Sequence
 
 PULLABLE = (
@@ -38,6 +39,8 @@ class State:
     chats: list[dict[str, Any]] = field(default_factory=list)
     """Every body of `/api/chat`, as it came."""
     loads: int = 0
+    blobs: dict[str, bytes] = field(default_factory=dict)
+    """What was uploaded, by its digest."""
     thinking: threading.Lock = field(default_factory=threading.Lock)
 
     def find(self, name: str) -> StandIn | None:
@@ -46,7 +49,7 @@ class State:
         return next((model for model in self.models if model.name == full), None)
 
 
-class Handler(Chat):
+class Handler(Creating, Chat):
     """One connection."""
 
     state: ClassVar[State]
@@ -66,7 +69,11 @@ class Handler(Chat):
             "/api/generate": self.generate,
             "/api/show": self._show,
             "/api/pull": self._pull,
+            "/api/create": self.create,
         }
+        if self.path.startswith(BLOBS):
+            self.blob()
+            return
         try:
             asked = self.body()
         except ValueError as error:

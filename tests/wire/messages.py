@@ -75,7 +75,7 @@ def _scalar(kind: Any, bounds: dict[str, Any]) -> st.SearchStrategy[Any]:
         strict = {"exclude_min": "gt" in bounds, "exclude_max": "lt" in bounds}
         return st.floats(low, high, allow_nan=False, allow_infinity=False, **strict)
     if kind is bytes:
-        return st.binary(max_size=64)
+        return st.binary(min_size=bounds.get("min_length", 0), max_size=64)
     assert kind is str, f"no strategy for {kind}"
     if "pattern" in bounds:
         return st.from_regex(bounds["pattern"].removesuffix("$") + r"\Z")

@@ -74,7 +74,7 @@ def test_a_robot_hears_its_own_orders_and_the_hubs_heart(site: Site) -> None:
     assert "r2x/robot/dog-1/traffic" in heard
     assert "r2x/robot/dog-2/traffic" not in heard
     assert "r2x/health/*" in heard
-    assert granted(site, "dog-1", "query", "ingress") == {"r2x/world/snapshot"}
+    assert granted(site, "dog-1", "query", "ingress") == {"r2x/world/snapshot", "r2x/planner/look"}
 
 
 def test_only_the_hub_commands_robots(site: Site) -> None:

@@ -134,6 +134,7 @@ def test_a_folder_is_no_site_file(tmp_path: Path) -> None:
     [
         ('[router]\nendpoint = "udp:foo"', "router.endpoint: tcp/HOST:PORT, such as tcp/127.0.0.1:7447 is expected"),
         ('[planner]\nname = "../evil"', "planner.name: one word: at most 32 letters"),
+        ('[planner]\nvision = "a b"', "planner.vision"),
         ('[view]\nmemory_limit = "lots"', "view.memory_limit: a size, such as 64MiB is expected"),
     ],
 )
@@ -170,3 +171,22 @@ def test_a_drone_that_could_not_be_flown(more: str, said: str, tmp_path: Path) -
     (tmp_path / "good.toml").write_text(GOOD + FLYING)
     load_site(tmp_path / "good.toml")
     assert said in fault(GOOD + FLYING + more, tmp_path)
+
+
+def test_a_camera_with_a_vision_model_needs_one(tmp_path: Path) -> None:
+    camera = """
+[[camera]]
+id = "cam-9"
+position_enu_m = [1.0, 1.0, 2.3]
+yaw_deg = 0.0
+tilt_down_deg = 30.0
+width_px = 640
+height_px = 480
+focal_px = 320.0
+perception = "both"
+"""
+    said = fault(f"{GOOD}\n{camera}", tmp_path)
+    assert "perception: both needs a vision model; name one in planner.vision, or set embedded" in said
+    site = tmp_path / "site.toml"
+    site.write_text(f'{GOOD}\n[planner]\nvision = "qwen2.5vl:7b"\n{camera}')
+    assert load_site(site).camera[-1].perception == "both"

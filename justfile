@@ -25,7 +25,7 @@ test *args: install
     {{ python }} -m ruff format --check .
     {{ python }} -m mypy
     .venv/bin/lint-imports --no-logo
-    {{ python }} -m pytest -m "not walk" "$@"
+    {{ python }} -m pytest -m "not walk" -n auto --dist loadfile "$@"
     {{ python }} -m pytest -m walk "$@"
 
 # fetch the pinned packages into .venv/ (done by every recipe that needs them)

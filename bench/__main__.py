@@ -1,6 +1,7 @@
 """`python -m bench NAME [...]`: the experiments that compare configurations. `perf` measures the machine instead."""
 
 import runpy
+import signal
 import sys
 
 EXPERIMENTS = {"reasoning": "planners beside each other on the same episodes, over a model's error rate"}
@@ -13,6 +14,9 @@ def main() -> None:
         known = name in ("", "-h", "--help")
         print(f"{'' if known else f'there is no experiment {name!r}; '}there are\n{listed}", file=sys.stderr)
         sys.exit(0 if known else 2)
+    # Also where it was begun in the background, by a shell that has interrupts ignored there.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     sys.argv = sys.argv[1:]
     runpy.run_module(f"bench.{name}", run_name="__main__")
 

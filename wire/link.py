@@ -19,7 +19,8 @@ itself, that takes a slow reader of small messages longer than a lease, and the 
 MAX_MESSAGE_BYTES = 16_000_000
 LEAN_RUNTIME = "(acc: (handover: tx), app: (handover: tx), net: (handover: tx))"
 """Zenoh's rare tasks in the thread that sends, where no callback of this program can hold it up: less switching between
-threads. Only what is received keeps threads of its own, so that a blocked reader never stops the sending."""
+threads. Only what is received keeps threads of its own, so that a blocked reader never stops the sending. For clients
+alone: a router on a busy machine that lets many in at once waits in that thread for itself, and stops reading some."""
 CREDENTIALS_VARIABLE = "R2X_CREDENTIALS"
 
 

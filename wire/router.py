@@ -14,7 +14,7 @@ from typing import Any
 
 from wire.access import access_control, write_credentials
 from wire.footprint import limit_arenas, settling
-from wire.link import LEAN_RUNTIME, MeshError, common_config, credentials_dir
+from wire.link import MeshError, common_config, credentials_dir
 from wire.node import open_session
 from wire.process import EXIT_USAGE, StopFlag, die_with_parent, set_up_logging, stop_with
 from wire.site import Site, SiteError, load_site
@@ -57,7 +57,7 @@ def check_port(endpoint: str) -> None:
 def run(site: Site, stopping: Callable[[], bool]) -> None:
     check_port(site.router.endpoint)
     try:
-        session = open_session(router_config(site), LEAN_RUNTIME)
+        session = open_session(router_config(site))
     except MeshError as error:
         raise PortError(f"the router cannot listen on {site.router.endpoint}: {error}") from error
     with session:

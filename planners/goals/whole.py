@@ -51,7 +51,7 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
         if any(negates(told) for told in inside) and any(told.word.kind in ("IT", "THEM") for told in inside):
             yield f"talk '{one_line(words, 60)}' denies something: say it in keep, or put its words into unknown"
         for told in inside:
-            if any(told.at <= entry.span for entry in entries):
+            if any(told.at <= entry.span for entry in entries) or told.at <= instruction.speaker_at(span):
                 continue
             meaning = told.word.meaning
             if is_act(told) or told.word.kind == "EVERYTHING":

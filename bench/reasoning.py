@@ -7,6 +7,7 @@ measured is kept in the JSON file, and the same command goes on from there.
 
 import argparse
 import json
+import re
 import subprocess
 import sys
 import time
@@ -187,7 +188,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; each takes a core")
     parser.add_argument("--host", default="", help="a model server to ask instead, such as http://127.0.0.1:11434")
     parser.add_argument("--model", default="qwen3:8b", help="its model")
-    parser.add_argument("--json", type=Path, default=OUT / "reasoning.json", metavar="FILE")
+    parser.add_argument("--json", type=Path, metavar="FILE", help=f"left out: in {OUT}/, one for each model")
     given = parser.parse_args()
     if any(not 0.0 <= rate < 1.0 for rate in given.rates):
         parser.error("a rate of errors lies between 0 and 1, such as 0.1")
@@ -195,7 +196,13 @@ def _arguments() -> argparse.Namespace:
         parser.error(f"--{'jobs' if given.jobs < 1 else 'robots'}: give 1 or more")
     if given.host:
         given.rates = [0.0]
+    given.json = given.json or OUT / file_name(given.model if given.host else "")
     return given
+
+
+def file_name(model: str) -> str:
+    """Of the results of a real model, or, without a name, of the emulated one."""
+    return f"{re.sub(r'[^A-Za-z0-9.]+', '-', model)}.json" if model else "reasoning.json"
 
 
 def server_fault(given: argparse.Namespace) -> str:

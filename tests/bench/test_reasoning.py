@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bench.emulated import dials_at
-from bench.reasoning import Measurement, Order, OtherSettings, orders, unanswered
+from bench.reasoning import Measurement, Order, OtherSettings, file_name, orders, unanswered
 from bench.reasoning_plot import draw
 from bench.reasoning_table import interval, summary, table_text
 from planners.planner import PLANNERS
@@ -86,6 +86,14 @@ def test_what_is_measured_is_kept_for_the_same_settings_alone(tmp_path: Path) ->
         Measurement({"robots": 3}, file)
     file.write_text("{broken")
     assert Measurement({"robots": 2}, file).trials == []
+
+
+def test_every_model_has_a_file_of_its_own() -> None:
+    assert [file_name(model) for model in ("", "qwen3:8b", "hf.co/a/b:Q4")] == [
+        "reasoning.json",
+        "qwen3-8b.json",
+        "hf.co-a-b-Q4.json",
+    ]
 
 
 def test_a_server_that_does_not_answer_measures_nothing() -> None:

@@ -119,6 +119,11 @@ def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -
         ("kill the telly but not the floor lamp", reply(TELLY_OFF), "'floor lamp' is in no goal"),
         ("hands off the vase, kill the telly", reply(TELLY_OFF, talk=["hands off the vase"]), "names a thing"),
         (
+            "no telly stays on",
+            reply(keep=("no telly stays on | touched | Television",)),
+            "'no' is not heeded",
+        ),
+        (
             "put a vase in bed, kill the telly",
             reply(TELLY_OFF, talk=["put a vase in bed"]),
             "'bed' in talk names a thing",

@@ -7,6 +7,7 @@ measured is kept in the JSON file, and the same command goes on from there.
 
 import argparse
 import json
+import re
 import subprocess
 import sys
 import time
@@ -18,7 +19,9 @@ from typing import Any
 
 from bench.reasoning_plot import draw
 from bench.reasoning_table import summary, table_text
+from planners.model_inspection import inspect
 from planners.planner import PLANNERS
+from wire.planner_table import PlannerChoice
 
 HOMES = (6, 15, 8, 13, 5, 11, 2, 21)
 """Seeds of homes, each with an instruction of its own, from two errands in five rooms on."""
@@ -51,6 +54,10 @@ def orders(planners: Sequence[str], rates: Sequence[float], homes: Sequence[int]
     ]
 
 
+class OtherSettings(ValueError):
+    """The file is of another comparison."""
+
+
 class Measurement:
     """The trials so far, written to a file after each."""
 
@@ -76,13 +83,24 @@ class Measurement:
 
 
 def _kept(settings: dict[str, Any], file: Path) -> list[Trial]:
-    """Trials of an earlier run with the same settings."""
+    """Trials of an earlier run. Raises OtherSettings: what took hours is not written over."""
     try:
         document = json.loads(file.read_text())
     except (OSError, ValueError):
         return []
-    same = isinstance(document, dict) and document.get("settings") == settings
-    return list(document["trials"]) if same else []
+    if not isinstance(document, dict):
+        return []
+    there = document.get("settings")
+    if there != settings and document.get("trials"):
+        said = ", ".join(f"{name} {value}" for name, value in dict(there or {}).items() if value != "")
+        raise OtherSettings(f"{file} has trials with other settings ({said}): name another file with --json")
+    return list(document.get("trials", ()))
+
+
+def unanswered(trial: Trial) -> bool:
+    """Whether every call went to a server that did not answer: nothing is measured then of any planner."""
+    task = trial["task"]
+    return bool(task["model_calls"]) and task["prompt_tokens"] + task["completion_tokens"] == 0
 
 
 class Crew:
@@ -109,6 +127,8 @@ class Crew:
         if child.returncode != 0:
             raise RuntimeError((complained.strip().splitlines() or ["it said nothing"])[-1])
         trial: Trial = json.loads(said.strip().splitlines()[-1])
+        if unanswered(trial):
+            raise RuntimeError(trial["task"]["reason"])
         return trial
 
     def end(self) -> None:
@@ -168,19 +188,40 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; each takes a core")
     parser.add_argument("--host", default="", help="a model server to ask instead, such as http://127.0.0.1:11434")
     parser.add_argument("--model", default="qwen3:8b", help="its model")
-    parser.add_argument("--json", type=Path, default=OUT / "reasoning.json", metavar="FILE")
+    parser.add_argument("--json", type=Path, metavar="FILE", help=f"left out: in {OUT}/, one for each model")
     given = parser.parse_args()
     if any(not 0.0 <= rate < 1.0 for rate in given.rates):
         parser.error("a rate of errors lies between 0 and 1, such as 0.1")
+    if given.jobs < 1 or given.robots < 1:
+        parser.error(f"--{'jobs' if given.jobs < 1 else 'robots'}: give 1 or more")
     if given.host:
         given.rates = [0.0]
+    given.json = given.json or OUT / file_name(given.model if given.host else "")
     return given
+
+
+def file_name(model: str) -> str:
+    """Of the results of a real model, or, without a name, of the emulated one."""
+    return f"{re.sub(r'[^A-Za-z0-9.]+', '-', model)}.json" if model else "reasoning.json"
+
+
+def server_fault(given: argparse.Namespace) -> str:
+    """Why the server that is to be asked cannot answer with this model; empty where it can, or none is asked."""
+    if not given.host or set(given.planners) <= WITHOUT_MODEL:
+        return ""
+    state = inspect(PlannerChoice(host=given.host, model=given.model))
+    return "" if state.fault is None else f"{given.model}: {state.fault.text}"
 
 
 def main() -> None:
     given = _arguments()
     settings = {"robots": given.robots, "host": given.host, "model": given.model if given.host else "emulated"}
-    kept = Measurement(settings, given.json)
+    try:
+        kept = Measurement(settings, given.json)
+    except OtherSettings as error:
+        sys.exit(f"error: {error}")
+    if fault := server_fault(given):
+        sys.exit(f"error: {fault}")
     wanted = orders(given.planners, given.rates, given.homes)
     broken = 0
     try:

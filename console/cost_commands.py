@@ -56,7 +56,8 @@ def _line(row: TimedCall) -> str:
     call = row.call
     took = "kept" if call.cached else f"{call.latency_s:.1f} s"
     mark = f"  {STAND_IN}" if call.stand_in else ""
+    counted_by = call.counted_by if call.prompt_tokens or call.completion_tokens else "-"
     return (
         f"{row.stamp_s:>9.1f}  {call.purpose:<12} {call.model:<18} {call.outcome:<12} {call.prompt_tokens:>7} "
-        f"{call.completion_tokens:>7} {took:>8}  {call.counted_by}{mark}"
+        f"{call.completion_tokens:>7} {took:>8}  {counted_by}{mark}"
     )

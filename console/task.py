@@ -74,9 +74,9 @@ def task_text(state: TaskState) -> str:
     if state.status in RUNNING:
         goes_on = f"{state.task} goes on; `justw cancel {state.task}` ends it"
         return f"{state.status}: {state.reason or state.instruction}\n{goes_on}"
-    goals = "\n".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}" for g in state.goals)
+    goals = "".join(f"  {'yes' if g.holds else 'no ':<4}{g.goal.text or g.goal.predicate}\n" for g in state.goals)
     return (
-        f"{state.status}: {state.reason or state.instruction}\n{goals}\n"
+        f"{state.status}: {state.reason or state.instruction}\n{goals}"
         f"{planner_text(state)}, {state.nodes_done} of {state.nodes_total} steps, {state.replans} replans, "
         f"{state.action_steps} action steps, {state.path_m:.1f} m{f', {cost}' if cost else ''}"
     )

@@ -28,6 +28,8 @@ def _fault(kind: str, place: tuple[int | str, ...], text: str, model: type[Messa
         return f"{path}: is missing"
     if kind == "extra_forbidden":
         return f"{path}: {_unknown(str(place[-1]), _model_at(place[:-1], model))}"
+    if kind == "model_type" and (at := _model_at(place, model)) is not None:
+        return f"{path}: a map with the fields {', '.join(at.model_fields)} is expected"
     told = _wanted(place, model) if kind == "string_pattern_mismatch" else ""
     return f"{path}: {told} is expected" if told else f"{path}: {text[0].lower()}{text[1:]}"
 

@@ -55,6 +55,7 @@ class CctvCore:
         self._detector = None if detector is None else SteadyDetector(detector)
         self._glances = None if camera.perception == "embedded" else Glances(camera.id, camera.look_every_s)
         self._trouble = ""
+        self._heard_model = False
         self._pictures = pictures
         self._looks: Pending[Seen | None] = Pending(f"look-{camera.id}")
         self._lens = Lens.of_camera(camera)
@@ -161,6 +162,11 @@ class CctvCore:
         if bool(self._glances.trouble) != bool(self._trouble):
             news = f"no answer from the vision model: {self._glances.trouble}" if self._glances.trouble else ""
             self._log(news or "the vision model answers again", now_s)
+            log.warning("%s: %s", self._camera.id, news or "the vision model answers again")
+        elif glance is not None and not self._heard_model:
+            who = "a stand-in for the vision model" if glance.stand_in else "the vision model"
+            log.info("%s: %s answers", self._camera.id, who)
+        self._heard_model = self._heard_model or glance is not None
         self._trouble = self._glances.trouble
         if glance is not None:
             self._report_glance(glance)

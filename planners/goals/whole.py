@@ -11,6 +11,7 @@ from wire.catalogue import type_row
 
 STATED = frozenset({"on", "off", "open", "closed", "clean", "in", "at"})
 STATED_BY = frozenset(kind for kind in ASKED_BY if kind.startswith("IS"))
+ENDING_STATES = STATED_BY | {"ON", "OFF"}
 ORDERING = frozenset({"THEN", "BEFORE", "AFTER"})
 
 
@@ -51,7 +52,7 @@ def _talk(reply: Reply, entries: Sequence[Entry], instruction: Instruction) -> I
         if any(negates(told) for told in inside) and any(told.word.kind in ("IT", "THEM") for told in inside):
             yield f"talk '{one_line(words, 60)}' denies something: say it in keep, or put its words into unknown"
         for told in inside:
-            if any(told.at <= entry.span for entry in entries):
+            if any(told.at <= entry.span for entry in entries) or told.at <= instruction.speaker_at(span):
                 continue
             meaning = told.word.meaning
             if is_act(told) or told.word.kind == "EVERYTHING":
@@ -130,6 +131,8 @@ def _denial(told: Told, covering: Sequence[Entry]) -> Iterator[str]:
 
 def _heeds(told: Told, entry: Entry) -> bool:
     """A restraint, an exception, or a state that is the opposite of the one denied."""
+    if entry.kept and entry.wish.p == "touched" and negates(told) and entry.told[-1].word.kind in ENDING_STATES:
+        return False  # "no TV stays on" asks for more than to leave them alone
     if entry.kept or (entry.wish.out and told.word.kind not in DENYING):
         return True
     if told.word.kind == "LEAVE":

@@ -1,7 +1,7 @@
 """The operator's words, each with what it may mean, and where a quotation of some of them stands among them."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -123,6 +123,19 @@ class Instruction:
                 return frozenset()
             found.append(self._words.index(word, start))
         return frozenset(found)
+
+    def speaker_at(self, span: frozenset[int]) -> frozenset[int]:
+        """Words of a quotation that say where the speakers themselves are or go: "I am off to bed"."""
+        speaker = cues()["speaker"]
+        if not span or self._words[min(span)] not in speaker["begins"]:
+            return frozenset()
+        return span & frozenset(i for place in speaker["places"] for i in self._at(place.split()))
+
+    def _at(self, phrase: Sequence[str]) -> Iterator[int]:
+        """The numbers of all words that belong to such a phrase."""
+        for start in range(len(self._words) - len(phrase) + 1):
+            if self._words[start : start + len(phrase)] == phrase:
+                yield from range(start, start + len(phrase))
 
     def within(self, span: Iterable[int]) -> list[Told]:
         """The words and phrases that lie in a quotation."""

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bench.emulated import dials_at
-from bench.reasoning import Measurement, Order, orders
+from bench.reasoning import Measurement, Order, OtherSettings, file_name, orders, unanswered
 from bench.reasoning_plot import draw
 from bench.reasoning_table import interval, summary, table_text
 from planners.planner import PLANNERS
@@ -82,9 +82,42 @@ def test_what_is_measured_is_kept_for_the_same_settings_alone(tmp_path: Path) ->
     again = Measurement({"robots": 2}, file)
     assert not again.lacks(Order("single_shot", 1, 0.1))
     assert again.lacks(Order("single_shot", 2, 0.1))
-    assert Measurement({"robots": 3}, file).trials == []
+    with pytest.raises(OtherSettings, match=r"other settings \(robots 2\): name another file with --json"):
+        Measurement({"robots": 3}, file)
     file.write_text("{broken")
     assert Measurement({"robots": 2}, file).trials == []
+
+
+def test_every_model_has_a_file_of_its_own() -> None:
+    assert [file_name(model) for model in ("", "qwen3:8b", "hf.co/a/b:Q4")] == [
+        "reasoning.json",
+        "qwen3-8b.json",
+        "hf.co-a-b-Q4.json",
+    ]
+
+
+def test_a_server_that_does_not_answer_measures_nothing() -> None:
+    silent = trial("goals", 1, 0.0, False, tokens=0)
+    assert unanswered(silent)
+    assert not unanswered(trial("goals", 1, 0.0, False))
+    assert not unanswered({**silent, "task": {**silent["task"], "model_calls": 0}}), "scripted asks nobody"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (("--jobs", "0"), "--jobs: give 1 or more"),
+        (("--robots", "0"), "--robots: give 1 or more"),
+        (("--host", "http://127.0.0.1:1", "--model", "qwen3:8b"), "no model server answers at http://127.0.0.1:1"),
+    ],
+)
+def test_what_cannot_be_measured_is_said_in_a_sentence(tmp_path: Path, wrong: tuple[str, ...], said: str) -> None:
+    file = tmp_path / "r.json"
+    command = bench("--planners", "goals", "--homes", "15", "--rates", "0", "--json", str(file), *wrong)
+    done = subprocess.run(command, env=ENV, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert said in done.stderr.splitlines()[-1]
+    assert not file.exists()
 
 
 def test_the_picture_shows_every_planner(tmp_path: Path) -> None:

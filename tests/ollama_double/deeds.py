@@ -207,7 +207,7 @@ def _named(items: Sequence[Heard]) -> Iterator[dict[str, Any]]:
     for index, item in enumerate(items):
         if item.kind == "every" and item.text.lower() == "both":
             number = 2
-        elif item.kind in ("every", "house"):
+        elif item.kind in ("every", "house") or item.text.lower() == "no":
             every = True
         elif item.kind == "number":
             number = int(item.value[0])

@@ -79,6 +79,7 @@ class Ear:
         self._add_nouns(set(types))
         self._add_rooms(rooms)
         self._table.update({name: ("noun", (name,), False) for name in things})
+        self._table.update({phrase: ("word", (), False) for phrase in tables()["speaker"]["words"]})
 
     def _add_nouns(self, types: set[str]) -> None:
         rows = {**tables()["noun"], **tables()["class"]}

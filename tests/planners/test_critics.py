@@ -80,6 +80,11 @@ TELLY_OFF = "kill the telly | off | Television"
             reply("the telly kill it | off | Television", talk=["whoa", "is blaring"]),
             "off(Television)",
         ),
+        (
+            "I am off to bed, see that no telly stays on",
+            reply("see that no telly stays on | off | Television | all=true", talk=["I am off to bed"]),
+            "off(Television*)",
+        ),
     ],
 )
 def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -> None:
@@ -113,6 +118,26 @@ def test_what_is_right_may_stand(say: str, given: dict[str, Any], wanted: str) -
         (ALONE, reply(MUG_IN_SINK), "'touching' is in no goal that does it"),
         ("kill the telly but not the floor lamp", reply(TELLY_OFF), "'floor lamp' is in no goal"),
         ("hands off the vase, kill the telly", reply(TELLY_OFF, talk=["hands off the vase"]), "names a thing"),
+        (
+            "no telly stays on",
+            reply(keep=("no telly stays on | touched | Television",)),
+            "'no' is not heeded",
+        ),
+        (
+            "put a vase in bed, kill the telly",
+            reply(TELLY_OFF, talk=["put a vase in bed"]),
+            "'bed' in talk names a thing",
+        ),
+        (
+            "I am off to bed, clean the bed, kill the telly",
+            reply(TELLY_OFF, talk=["I am off to bed, clean the bed"]),
+            "'bed'",
+        ),
+        (
+            "I want it in the bed, kill the telly",
+            reply(TELLY_OFF, talk=["I want it in the bed"]),
+            "'bed' in talk names a thing",
+        ),
         ("don't kill the telly", reply("don't kill the telly | off | Television"), "not heeded"),
         (BUT_ONE, reply(f"{BUT_ONE} | off | DeskLamp | all=true"), "'floor lamp' is in no goal"),
         ("kill every lamp", reply("kill every lamp | off | FloorLamp | all=true"), "DeskLamp too"),

@@ -67,6 +67,7 @@ def test_addresses(host: str) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
+        ("budget = 3", "planner.budget: a map with the fields tokens, calls, seconds is expected"),
         ('model = ""', "planner.model: a model as `ollama list` names it, such as qwen3:8b is expected"),
         ('model = "../x"', "planner.model: a model as `ollama list` names it"),
         ('host = "ftp://box"', "planner.host: an address such as http://127.0.0.1:11434"),

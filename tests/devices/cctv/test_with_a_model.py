@@ -172,13 +172,23 @@ def test_the_log_is_not_flooded() -> None:
     assert len(said) == 6
 
 
-def test_a_failing_model_is_told_of_once_asked_less_often_and_disturbs_nothing() -> None:
+def test_a_failing_model_is_told_of_once_asked_less_often_and_disturbs_nothing(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
     model = says(APPLE_AT)
     model.fault = "no model server at 127.0.0.1:11434"
     listener = run(30.0, model)
     assert listener.lines.count("no answer from the vision model: no model server at 127.0.0.1:11434") == 1
+    assert caplog.messages == ["cam-1: no answer from the vision model: no model server at 127.0.0.1:11434"]
     assert 3 <= len(model.questions) <= 5
     assert len(listener.batches) >= 55
+
+
+def test_that_a_model_answers_is_in_the_process_log_once(caplog: pytest.LogCaptureFixture) -> None:
+    with caplog.at_level("INFO", "camera"):
+        run(5.0, says(APPLE_AT))
+    told = [message for message in caplog.messages if message.endswith("answers")]
+    assert len(told) == 1
 
 
 def test_without_a_model_the_log_says_what_is_missing() -> None:
